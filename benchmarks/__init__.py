@@ -1,0 +1,1 @@
+"""What it was worth: rollouts, recordings, metrics, experiments, reports and the command line."""

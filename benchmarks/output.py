@@ -1,0 +1,57 @@
+"""Output folders that are either complete or untouched."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from estimators.errors import GtEnvError
+
+
+class OutputError(GtEnvError, OSError):
+    """An output folder or file that cannot be written."""
+
+
+def check_writable(folder: Path) -> None:
+    """Refuse an output folder before any work is done for it.
+
+    Raises:
+        OutputError: If the folder cannot be made or written to.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise OutputError(f"--out {folder}: cannot be written to: {error.strerror}") from None
+
+
+@contextmanager
+def staged(folder: Path) -> Iterator[Path]:
+    """A scratch folder whose files move to `folder` together when the block ends well, and vanish otherwise.
+
+    Files of the same name are replaced, others stay.
+
+    Raises:
+        OutputError: If writing fails, e.g. because the disk is full.
+    """
+    check_writable(folder)
+    scratch = Path(tempfile.mkdtemp(prefix=".unfinished-", dir=folder))
+    try:
+        yield scratch
+        for path in sorted(scratch.rglob("*")):
+            place = folder / path.relative_to(scratch)
+            if path.is_dir():
+                place.mkdir(exist_ok=True)
+            else:
+                os.replace(path, place)
+    except OSError as error:
+        if isinstance(error, OutputError):
+            raise
+        raise OutputError(f"{folder}: nothing was written: {error.strerror}") from None
+    finally:
+        shutil.rmtree(scratch, ignore_errors=True)

@@ -1,0 +1,106 @@
+"""What is known, or believed, about the station, the target and the room.
+
+One type for two uses: what the simulated station *is*, and what an estimator *believes* of it. The two are
+equal unless an experiment makes them differ. All lengths [m], all angles [rad], in the station's frame: origin
+at the LRF, x to the right along its wall, y into the room, z up.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from estimators.poses import Pose2
+from estimators.room import Room
+
+DEG = math.pi / 180
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class LrfCalibration:
+    """The laser rangefinder.
+
+    Attributes:
+        pose: Where its beams start and where its zero bearing points.
+        height: Of the plane that it scans.
+        noise_sigma: Standard deviation of one range.
+        range_bias: What it adds to every range.
+    """
+
+    pose: Pose2 = field(default_factory=Pose2)
+    height: float = 0.225
+    noise_sigma: float = 0.030
+    range_bias: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class CameraCalibration:
+    """The camera on its pan unit: a pinhole on the pan axis, looking horizontally.
+
+    Attributes:
+        position: x, y, z of the pan axis at the camera's height.
+        pan_offset: Added to the encoder's reading, gives the true direction of view.
+        fov: Vertical field of view.
+        width: Columns of a frame [px].
+        height: Rows of a frame [px].
+    """
+
+    position: tuple[float, float, float] = (0.0, 0.10, 0.165)
+    pan_offset: float = 0.0
+    fov: float = 29.6 * DEG
+    width: int = 320
+    height: int = 240
+
+    @property
+    def focal(self) -> float:
+        """Focal length [px]."""
+        return 0.5 * self.height / math.tan(0.5 * self.fov)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class TargetGeometry:
+    """The cylinder with its six markers, and where the robot carries it.
+
+    Attributes:
+        radius: Of the cylinder.
+        z_min: Height of its lower end.
+        z_max: Height of its upper end.
+        marker_angles: Where each marker stands on the cylinder, in the target's frame.
+        marker_colors: RGB of each marker, 0-255, in the same order.
+        marker_width: Of each marker, along the circumference.
+        marker_height: Of each marker; all are centred at half the target's height.
+        marker_protrusion: How far a marker's face stands out of the cylinder.
+        mount: Pose of the target in the frame of the robot's base.
+    """
+
+    radius: float = 0.10
+    z_min: float = 0.0775
+    z_max: float = 0.2525
+    marker_angles: tuple[float, ...] = (-90 * DEG, -30 * DEG, 30 * DEG, 90 * DEG, 150 * DEG, 210 * DEG)
+    marker_colors: tuple[tuple[int, int, int], ...] = (
+        (0, 0, 255),
+        (0, 255, 0),
+        (255, 0, 255),
+        (255, 255, 0),
+        (255, 0, 0),
+        (0, 255, 255),
+    )
+    marker_width: float = 0.010
+    marker_height: float = 0.035
+    marker_protrusion: float = 0.0015
+    mount: Pose2 = field(default_factory=Pose2)
+
+    @property
+    def marker_z(self) -> float:
+        """Height of the markers' centres."""
+        return 0.5 * (self.z_min + self.z_max)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Calibration:
+    """Everything that an estimator may know beforehand."""
+
+    room: Room
+    lrf: LrfCalibration = field(default_factory=LrfCalibration)
+    camera: CameraCalibration = field(default_factory=CameraCalibration)
+    target: TargetGeometry = field(default_factory=TargetGeometry)

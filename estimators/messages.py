@@ -1,0 +1,225 @@
+"""What sensors say and what estimators answer: one type per message, the same for simulated and real sensors.
+
+Every message names its `source` (`station/lrf`, `station/camera`, `robot/encoders`, ...) and carries the
+`stamp` [s] at which it was measured. Messages are immutable and their arrays read-only, so that several
+estimators can be handed the same one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from estimators.errors import MeasurementError
+from estimators.poses import Array, Pose2
+
+STATION_LRF: Final = "station/lrf"
+STATION_CAMERA: Final = "station/camera"
+ROBOT_ENCODERS: Final = "robot/encoders"
+
+NO_COVARIANCE: Final = 1e6
+"""Variance that stands for "nothing known" before the first fix [m^2, rad^2]."""
+
+
+def _freeze(message: object, name: str, dtype: Any, ndim: int) -> None:
+    """Store the field as a read-only array, copied unless it already is one, checking its dimensions."""
+    array = np.asarray(getattr(message, name), dtype)
+    if array.ndim != ndim:
+        kind = type(message).__name__
+        raise MeasurementError(f"{kind}.{name} must have {ndim} dimension(s), got shape {array.shape}")
+    if array.flags.writeable:
+        array = array.copy()
+        array.setflags(write=False)
+    object.__setattr__(message, name, array)
+
+
+def _check_stamp(message: Message) -> None:
+    if not math.isfinite(message.stamp):
+        raise MeasurementError(f"{type(message).__name__}.stamp must be finite, got {message.stamp}")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Message:
+    """What all messages share: when it was measured [s] and by which sensor."""
+
+    stamp: float
+    source: str
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class LaserScan(Message):
+    """One sweep of a laser rangefinder, in the sense of ROS `sensor_msgs/LaserScan`.
+
+    Beam `i` points to `bearing_min + i * bearing_increment` in the sensor's frame and was measured at
+    `stamp + i * time_increment`. A beam without a return reads `range_max`.
+
+    Attributes:
+        ranges: (N,) float32 [m].
+        bearing_min: Bearing of the first beam [rad].
+        bearing_increment: Angle between beams [rad].
+        time_increment: Time between beams [s]; 0 for an instantaneous scan.
+        range_min: Smallest range that the sensor measures [m].
+        range_max: Largest range that the sensor measures [m].
+
+    Raises:
+        MeasurementError: If the ranges are not one-dimensional or hold no beam, or a number is not finite.
+    """
+
+    source: str = STATION_LRF
+    ranges: NDArray[np.float32]
+    bearing_min: float
+    bearing_increment: float
+    time_increment: float = 0.0
+    range_min: float = 0.0
+    range_max: float
+
+    def __post_init__(self) -> None:
+        _check_stamp(self)
+        _freeze(self, "ranges", np.float32, 1)
+        if self.ranges.size == 0:
+            raise MeasurementError("LaserScan.ranges must hold at least one beam")
+        if not self.range_min < self.range_max:
+            raise MeasurementError(
+                f"LaserScan.range_min must be below range_max, got {self.range_min} and {self.range_max}"
+            )
+
+    @property
+    def bearings(self) -> Array:
+        """Bearings of the beams (N,) [rad]."""
+        return self.bearing_min + self.bearing_increment * np.arange(len(self.ranges))
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class ImageFrame(Message):
+    """One frame of the station's camera and the pan angle that the motor's encoder gave with it.
+
+    Attributes:
+        rgb: (H, W, 3) uint8, row 0 on top.
+        pan: Encoder reading of the pan unit when the frame was taken [rad]; 0 along x, pi/2 along y.
+
+    Raises:
+        MeasurementError: If the image is not (H, W, 3).
+    """
+
+    source: str = STATION_CAMERA
+    rgb: NDArray[np.uint8]
+    pan: float
+
+    def __post_init__(self) -> None:
+        _check_stamp(self)
+        if np.asarray(self.rgb).dtype != np.uint8:
+            raise MeasurementError(f"ImageFrame.rgb must be uint8, got {np.asarray(self.rgb).dtype}")
+        _freeze(self, "rgb", np.uint8, 3)
+        if self.rgb.shape[2] != 3:
+            raise MeasurementError(f"ImageFrame.rgb must be (H, W, 3), got {self.rgb.shape}")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class TargetSighting(Message):
+    """What was seen of the target in one frame: the rows and columns of 4.2.2, without the frame itself.
+
+    A recording may keep these instead of frames. All in pixels of the frame, `column` to the right, `row` down.
+
+    Attributes:
+        pan: Encoder reading of the pan unit [rad].
+        top: First row of the target in the central column.
+        bottom: Last row of the target in the central column.
+        left: First column of the target a quarter of its height below the top.
+        right: Last column of the target in the same row.
+        marker_columns: (M,) column of the centre of each marker on the middle row, left to right.
+        marker_colors: (M,) index of each marker's colour in `TargetGeometry.marker_colors`.
+    """
+
+    source: str = STATION_CAMERA
+    pan: float
+    top: int
+    bottom: int
+    left: int
+    right: int
+    marker_columns: Array
+    marker_colors: NDArray[np.int64]
+
+    def __post_init__(self) -> None:
+        _check_stamp(self)
+        _freeze(self, "marker_columns", np.float64, 1)
+        _freeze(self, "marker_colors", np.int64, 1)
+        if self.marker_columns.shape != self.marker_colors.shape:
+            raise MeasurementError(
+                f"TargetSighting needs one colour per marker, got {self.marker_columns.size} columns "
+                f"and {self.marker_colors.size} colours"
+            )
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class WheelOdometry(Message):
+    """Wheel speeds (n,) [rad/s] as the encoders gave them, averaged since the message before."""
+
+    source: str = ROBOT_ENCODERS
+    speeds: Array
+
+    def __post_init__(self) -> None:
+        _check_stamp(self)
+        _freeze(self, "speeds", np.float64, 1)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class ImuSample(Message):
+    """Rate of turn about z [rad/s] and acceleration (2,) along the robot's x and y [m/s^2]."""
+
+    source: str = "robot/imu"
+    yaw_rate: float
+    acceleration: Array = field(default_factory=lambda: np.zeros(2))
+
+    def __post_init__(self) -> None:
+        _check_stamp(self)
+        _freeze(self, "acceleration", np.float64, 1)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class PoseEstimate:
+    """What an estimator says: the pose of the robot's base at `stamp`, and how sure it is.
+
+    Attributes:
+        stamp: Time that pose and covariance refer to [s].
+        pose: x, y [m], yaw [rad]; three numbers are accepted.
+        covariance: (3, 3), order x, y, yaw [m^2, m rad, rad^2].
+        valid: Whether the position may be used.
+        yaw_valid: Whether the yaw may be used.
+
+    Raises:
+        MeasurementError: If the pose is not finite, or the covariance is not a finite symmetric (3, 3) matrix.
+    """
+
+    stamp: float
+    pose: Pose2
+    covariance: Array
+    valid: bool = True
+    yaw_valid: bool = True
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "pose", Pose2.of(self.pose))
+        _freeze(self, "covariance", np.float64, 2)
+        p = self.covariance
+        if p.shape != (3, 3) or not np.isfinite(p).all() or np.abs(p - p.T).max() > 1e-9 * np.abs(p).max():
+            raise MeasurementError(
+                f"PoseEstimate.covariance must be a finite symmetric (3, 3) matrix, got {p.tolist()}"
+            )
+
+    @classmethod
+    def unknown(cls) -> PoseEstimate:
+        """What there is to say before the first fix."""
+        return cls(
+            stamp=-1.0,
+            pose=Pose2(),
+            covariance=NO_COVARIANCE * np.eye(3),
+            valid=False,
+            yaw_valid=False,
+        )
+
+
+Messages = Sequence[Message]

@@ -1,0 +1,105 @@
+"""Gymnasium wrappers that attach an estimator's answer to `info`."""
+
+from __future__ import annotations
+
+from typing import Any, SupportsFloat
+
+import gymnasium as gym
+from gymnasium.utils import RecordConstructorArgs
+
+from estimators.calibration import Calibration
+from estimators.errors import ConfigError
+from estimators.messages import PoseEstimate
+from estimators.protocol import ground_truth_estimator
+
+STATION = "station/"
+
+
+def estimate_info(estimate: PoseEstimate) -> dict[str, Any]:
+    """An estimate as `info` carries it: fresh arrays and numbers of constant shape."""
+    return {
+        "pose": estimate.pose.as_array(),
+        "covariance": estimate.covariance.copy(),
+        "stamp": float(estimate.stamp),
+        "valid": bool(estimate.valid),
+        "yaw_valid": bool(estimate.yaw_valid),
+    }
+
+
+class GroundTruthWrapper(
+    gym.Wrapper[Any, Any, Any, Any],
+    RecordConstructorArgs,
+):
+    """Attach what the external station measures to `info[name]`.
+
+    `info[name]` is a dict: `pose` (3,) x, y [m], yaw [rad] of the robot's base, `covariance` (3, 3), `stamp`
+    [s], `valid` and `yaw_valid`. Until the first fix `valid` is False, the stamp -1 and the covariance 1e6 I.
+    Dynamics, reward and observation stay as they are; wrappers with different names can be stacked.
+
+    Only messages whose source starts with `station/` are read: the robot's own sensors never are.
+
+    Args:
+        env: An environment of this project (its `unwrapped` has `measurements`).
+        method: One of `estimators.METHODS`.
+        name: Key in `info`.
+        calibration: What the estimator believes; None takes what the environment's configuration says.
+
+    Raises:
+        ConfigError: If the name is taken or reserved, or the method unknown.
+    """
+
+    def __init__(
+        self,
+        env: gym.Env[Any, Any],
+        method: str = "thesis",
+        name: str = "gt",
+        calibration: Calibration | None = None,
+    ) -> None:
+        RecordConstructorArgs.__init__(self, method=method, name=name, calibration=calibration)
+        gym.Wrapper.__init__(self, env)
+        _refuse_taken_name(env, name)
+        self.name = name
+        self.method = method
+        self.estimator = ground_truth_estimator(
+            method, calibration if calibration is not None else env.unwrapped.believed_calibration
+        )
+        self.estimate = PoseEstimate.unknown()
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
+        """Reset environment and estimator; the first measurements are already in."""
+        observation, info = self.env.reset(seed=seed, options=options)
+        self.estimator.reset()
+        self.estimate = PoseEstimate.unknown()
+        return observation, self._attach(info)
+
+    def step(self, action: Any) -> tuple[Any, SupportsFloat, bool, bool, dict[str, Any]]:
+        """Step the environment and give its new measurements to the estimator."""
+        observation, reward, terminated, truncated, info = self.env.step(action)
+        return observation, reward, terminated, truncated, self._attach(info)
+
+    def _attach(self, info: dict[str, Any]) -> dict[str, Any]:
+        base: Any = self.env.unwrapped
+        for message in base.measurements:
+            if message.source.startswith(STATION):
+                self.estimate = self.estimator.update(message) or self.estimate
+        base.show_estimate(self.name, self.estimate)
+        return {**info, self.name: estimate_info(self.estimate)}
+
+
+RESERVED_NAMES = frozenset({"true_pose", "t", "episode", "is_success", "final_info", "final_obs"})
+
+
+def _refuse_taken_name(env: gym.Env[Any, Any], name: str) -> None:
+    """Raise if `info` already has, or reserves, that key."""
+    taken = set(RESERVED_NAMES)
+    layer: Any = env
+    while isinstance(layer, gym.Wrapper):
+        if isinstance(layer, GroundTruthWrapper):
+            taken.add(layer.name)
+        layer = layer.env
+    if not name or name in taken:
+        raise ConfigError(f"name = {name!r}: must not be empty or one of {', '.join(sorted(taken))}")
+
+

@@ -1,0 +1,13 @@
+"""A room, a robot with a marked cylinder, and a station that watches it, as Gymnasium environments.
+
+`gymnasium.make("gt_env:gt_env/Arena-v0", config="thesis")`. Importing this package registers the environments
+and loads no physics engine.
+"""
+
+from gymnasium import register
+
+from gt_env.config import EnvConfig, load_config
+
+register(id="gt_env/Arena-v0", entry_point="gt_env.env:ArenaEnv")
+
+__all__ = ["EnvConfig", "load_config"]

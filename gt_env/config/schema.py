@@ -1,0 +1,161 @@
+"""The whole configuration, and what must hold between its sections."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict, field
+from typing import Any
+
+from pydantic import model_validator
+
+from estimators.calibration import DEG, Calibration
+from estimators.errors import ConfigError
+from estimators.poses import Pose2
+from estimators.room import Room
+from gt_env.config.merging import merge
+from gt_env.config.sections import (
+    CameraConfig,
+    LightConfig,
+    LrfConfig,
+    PanConfig,
+    PhysicsConfig,
+    RobotConfig,
+    RoomConfig,
+    TargetConfig,
+    TimingConfig,
+    section,
+)
+
+BELIEF_SECTIONS = ("room", "target", "lrf", "camera", "pan")
+
+
+@section
+class EnvConfig:
+    """Everything that an environment is made of.
+
+    `belief` holds what the estimators and the pan unit's tracker believe where that differs from what is: a
+    partial mapping over the sections `room`, `target`, `lrf`, `camera` and `pan`.
+    """
+
+    room: RoomConfig = field(default_factory=RoomConfig)
+    robot: RobotConfig = field(default_factory=RobotConfig)
+    target: TargetConfig = field(default_factory=TargetConfig)
+    lrf: LrfConfig = field(default_factory=LrfConfig)
+    camera: CameraConfig = field(default_factory=CameraConfig)
+    pan: PanConfig = field(default_factory=PanConfig)
+    light: LightConfig = field(default_factory=LightConfig)
+    physics: PhysicsConfig = field(default_factory=PhysicsConfig)
+    timing: TimingConfig = field(default_factory=TimingConfig)
+    belief: dict[str, Any] = field(default_factory=dict)
+
+    @model_validator(mode="after")
+    def _consistent(self) -> EnvConfig:
+        for problem in _problems(self):
+            raise ConfigError(problem)
+        if self.belief:
+            self.believed()
+        return self
+
+    def as_dict(self) -> dict[str, Any]:
+        """All values as plain mappings, tuples and numbers; `load_config` takes it back."""
+        return asdict(self)
+
+    def believed(self) -> EnvConfig:
+        """The configuration as the estimators believe it.
+
+        Raises:
+            ConfigError: If `belief` names a section that estimators know nothing of.
+        """
+        for name in self.belief:
+            if name not in BELIEF_SECTIONS:
+                raise ConfigError(f"belief.{name}: must be one of {', '.join(BELIEF_SECTIONS)}")
+        values = merge(asdict(self), self.belief)
+        values["belief"] = {}
+        return EnvConfig(**values)
+
+    def calibration(self) -> Calibration:
+        """Station, target and room as they are."""
+        return Calibration(
+            room=self.room.in_station_frame(),
+            lrf=self.lrf.calibration(),
+            camera=self.camera.calibration(self.pan),
+            target=self.target.calibration(),
+        )
+
+    @property
+    def start_pose(self) -> Pose2:
+        """Where an episode starts, in the station's frame."""
+        return Pose2(x=self.robot.start[0], y=self.robot.start[1], yaw=self.robot.start_yaw_deg * DEG)
+
+    def ticks(self, period: float) -> int:
+        """How many physics ticks a period [s] takes; they divide it, or this configuration would not exist."""
+        return round(period / self.timing.tick)
+
+
+def _problems(c: EnvConfig) -> Iterator[str]:
+    """What does not fit together, most basic first; each names key, value and what is allowed."""
+    yield from _timing_problems(c)
+    if not c.lrf.range_min < c.lrf.range_max:
+        yield f"lrf.range_min = {c.lrf.range_min}: must be below lrf.range_max = {c.lrf.range_max}"
+    if not c.camera.near < c.camera.far:
+        yield f"camera.near = {c.camera.near}: must be below camera.far = {c.camera.far}"
+    if not c.pan.min_deg < c.pan.max_deg:
+        yield f"pan.min_deg = {c.pan.min_deg}: must be below pan.max_deg = {c.pan.max_deg}"
+    if not c.target.z_min < c.target.z_max:
+        yield f"target.z_min = {c.target.z_min}: must be below target.z_max = {c.target.z_max}"
+    if len(c.target.marker_angles_deg) != len(c.target.marker_colors):
+        yield (
+            f"target.marker_colors has {len(c.target.marker_colors)} colours: must be as many as "
+            f"target.marker_angles_deg, {len(c.target.marker_angles_deg)}"
+        )
+    if not c.target.z_min < c.lrf.height < c.target.z_max:
+        yield (
+            f"lrf.height = {c.lrf.height}: must be between target.z_min = {c.target.z_min} and target.z_max = "
+            f"{c.target.z_max}, else the LRF does not see the target"
+        )
+    yield from _room_problems(c)
+
+
+def _timing_problems(c: EnvConfig) -> Iterator[str]:
+    periods = {
+        "timing.step": c.timing.step,
+        "lrf.rate": 1 / c.lrf.rate,
+        "camera.rate": 1 / c.camera.rate,
+        "robot.encoder_rate": 1 / c.robot.encoder_rate,
+        "pan.control_rate": 1 / c.pan.control_rate,
+    }
+    for key, period in periods.items():
+        ticks = period / c.timing.tick
+        if ticks < 0.5 or abs(ticks - round(ticks)) > 1e-6 * ticks:
+            value = f"{period:g} s" if key == "timing.step" else f"{1 / period:g} Hz"
+            yield (
+                f"{key} = {value}: its period must be a whole multiple of timing.tick = {c.timing.tick:g} s, "
+                f"got {ticks:.6g} ticks"
+            )
+
+
+def _room_problems(c: EnvConfig) -> Iterator[str]:
+    room = c.room.in_station_frame()
+    if room.clearance((0.0, 0.0)) <= 0:
+        yield f"room.station = {list(c.room.station)}: the LRF must stand inside room.vertices"
+    if room.clearance(c.camera.position[:2]) <= 0:
+        yield f"camera.position = {list(c.camera.position)}: must be inside the room"
+    problem = pose_problem(c, room, c.start_pose)
+    if problem is None:
+        return
+    widest = room.largest_clearance()
+    if c.target.radius >= widest:
+        yield f"target.radius = {c.target.radius}: must be below {widest:.3f} m to fit into the room"
+    yield f"robot.start = {list(c.robot.start)}: {problem}"
+
+
+def pose_problem(c: EnvConfig, room: Room, pose: Pose2) -> str | None:
+    """Why the robot cannot stand at a pose, or None if it can."""
+    target = pose @ c.target.calibration().mount
+    clearance = room.clearance((target.x, target.y))
+    if clearance < c.target.radius - 1e-9:
+        return (
+            f"the target's axis must be inside the room and at least target.radius = {c.target.radius} m from "
+            f"every wall, it is at {clearance:.3f} m"
+        )
+    return None
