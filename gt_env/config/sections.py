@@ -72,6 +72,7 @@ class RobotConfig:
         wheel_radius: [m].
         wheel_width: [m].
         max_wheel_speed: No-load speed of the motors [rad/s]; an action of 1.
+        max_wheel_acceleration: How fast the motors' controller changes the speed [rad/s^2].
         stall_torque: [N m].
         pulses_per_turn: Of the wheels' encoders.
         encoder_rate: [Hz].
@@ -89,6 +90,7 @@ class RobotConfig:
     wheel_radius: Positive = 0.045
     wheel_width: Positive = 0.014
     max_wheel_speed: Positive = 29.4
+    max_wheel_acceleration: Positive = 60.0
     stall_torque: Positive = 1.08
     pulses_per_turn: Whole = 360
     encoder_rate: Positive = 20.0

@@ -1,0 +1,319 @@
+"""The physics engine behind a small facade: the only module that imports pybullet."""
+
+from __future__ import annotations
+
+import math
+import os
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from estimators.errors import MissingExtraError
+from estimators.poses import Array
+from gt_env.config.sections import Color, LightConfig, PhysicsConfig
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class View:
+    """Where a picture is taken from.
+
+    Attributes:
+        eye: x, y, z of the camera [m].
+        look_at: A point on its axis [m].
+        fov_deg: Vertical field of view [deg].
+        width: [px].
+        height: [px].
+        near: [m].
+        far: [m].
+    """
+
+    eye: tuple[float, float, float]
+    look_at: tuple[float, float, float]
+    fov_deg: float
+    width: int
+    height: int
+    near: float = 0.05
+    far: float = 40.0
+
+
+class Engine:
+    """One physics world.
+
+    Args:
+        physics: Contact solver, friction and gravity.
+        tick: Time that one `step` takes [s].
+
+    Raises:
+        MissingExtraError: If pybullet is not installed.
+    """
+
+    def __init__(self, physics: PhysicsConfig, tick: float) -> None:
+        self._p = _import_pybullet()
+        self._physics = physics
+        self._tick = tick
+        self._client: int = self._p.connect(self._p.DIRECT)
+
+    def reset(self) -> None:
+        """Empty the world. What is then built in the same order behaves the same, bit for bit."""
+        p, client = self._p, self._client
+        p.resetSimulation(physicsClientId=client)
+        p.setTimeStep(self._tick, physicsClientId=client)
+        p.setGravity(0, 0, -self._physics.gravity, physicsClientId=client)
+        p.setPhysicsEngineParameter(
+            numSolverIterations=self._physics.solver_iterations,
+            deterministicOverlappingPairs=1,
+            contactSlop=0.0,
+            physicsClientId=client,
+        )
+
+    def close(self) -> None:
+        """Disconnect; the engine cannot be used afterwards."""
+        if self._client >= 0:
+            self._p.disconnect(physicsClientId=self._client)
+            self._client = -1
+
+    def add_floor(self) -> int:
+        """An endless floor at z = 0, not seen; returns the body's number."""
+        p, client = self._p, self._client
+        plane = p.createCollisionShape(p.GEOM_PLANE, physicsClientId=client)
+        # Without a picture of its own the engine draws a chequered one, whose grey the thesis takes for target.
+        speck = p.createVisualShape(
+            p.GEOM_BOX, halfExtents=[1e-3] * 3, visualFramePosition=[0, 0, -1], physicsClientId=client
+        )
+        body = p.createMultiBody(0, plane, speck, physicsClientId=client)
+        p.changeDynamics(body, -1, lateralFriction=self._physics.friction, physicsClientId=client)
+        return int(body)
+
+    def add_box(
+        self, centre: Sequence[float], half: Sequence[float], yaw: float, color: Color, *, solid: bool = True
+    ) -> int:
+        """A fixed box; one that is not solid is only seen.
+
+        Args:
+            centre: x, y, z [m].
+            half: Half of its extents [m].
+            yaw: Turn about z [rad].
+            color: RGB.
+            solid: Whether it can be touched and ranged.
+        """
+        size = {"halfExtents": list(half)}
+        return self._add(self._p.GEOM_BOX, size, size, centre, yaw, color, solid)
+
+    def add_cylinder(
+        self, centre: Sequence[float], radius: float, height: float, color: Color, *, solid: bool = True
+    ) -> int:
+        """A fixed upright cylinder; as `add_box`."""
+        touched = {"radius": radius, "height": height}
+        seen = {"radius": radius, "length": height}
+        return self._add(self._p.GEOM_CYLINDER, touched, seen, centre, 0.0, color, solid)
+
+    def add_robot(self, urdf: str, x: float, y: float, yaw: float, ground: int, wheels: Sequence[str]) -> Body:
+        """A robot whose wheels roll on the ground and whose body slides along everything else.
+
+        Args:
+            urdf: Its description.
+            x: Of its base frame [m].
+            y: [m].
+            yaw: [rad].
+            ground: Body that the wheels touch; they pass through all bodies made so far but this one.
+            wheels: Names of the wheels' joints.
+        """
+        p, client = self._p, self._client
+        with tempfile.TemporaryDirectory(prefix="gt-env-") as folder:
+            path = Path(folder) / "robot.urdf"
+            path.write_text(urdf)
+            flags = p.URDF_USE_IMPLICIT_CYLINDER
+            others = [p.getBodyUniqueId(i, physicsClientId=client) for i in range(p.getNumBodies(physicsClientId=client))]
+            number = p.loadURDF(str(path), flags=flags, physicsClientId=client)
+        names = {
+            p.getJointInfo(number, j, physicsClientId=client)[1].decode(): j
+            for j in range(p.getNumJoints(number, physicsClientId=client))
+        }
+        body = Body(p, client, number, [names[w] for w in wheels])
+        body.place(x, y, yaw)
+        # Bullet multiplies the two frictions: the floor's is the value that counts.
+        for link in range(-1, len(names)):
+            rolls = link in body.joints
+            p.changeDynamics(
+                number,
+                link,
+                lateralFriction=1.0 if rolls else 0.0,
+                linearDamping=0.0,
+                angularDamping=0.0,
+                jointDamping=0.0,
+                physicsClientId=client,
+            )
+            for other in others if rolls else ():
+                if other != ground:
+                    p.setCollisionFilterPair(number, other, link, -1, 0, physicsClientId=client)
+        return body
+
+    def settle(self) -> None:
+        """Find contacts without letting time pass: before it, rays miss what was just built."""
+        self._p.performCollisionDetection(physicsClientId=self._client)
+
+    def step(self) -> None:
+        """Let one tick pass."""
+        self._p.stepSimulation(physicsClientId=self._client)
+
+    def cast(self, origin: Sequence[float], bearings: Array, reach: float) -> Array:
+        """Distances (N,) [m] to the first solid body along horizontal rays; inf where there is none.
+
+        Args:
+            origin: x, y, z [m].
+            bearings: (N,) [rad].
+            reach: Length of the rays [m].
+        """
+        directions = np.stack([np.cos(bearings), np.sin(bearings), np.zeros(len(bearings))], axis=1)
+        ends = np.asarray(origin) + reach * directions
+        hits = self._p.rayTestBatch([list(origin)] * len(ends), ends.tolist(), physicsClientId=self._client)
+        return np.array([hit[2] * reach if hit[0] >= 0 else np.inf for hit in hits])
+
+    def picture(self, view: View, light: LightConfig, lit_at: Sequence[float]) -> NDArray[np.uint8]:
+        """Render the world (H, W, 3) RGB with the engine's software renderer, one sample a pixel.
+
+        Args:
+            view: Where from.
+            light: Lamps; their light is added.
+            lit_at: Point x, y, z [m] whose directions to the lamps hold for the whole picture, since the
+                renderer's lamps are infinitely far away.
+        """
+        parts, depth = [], np.empty(0)
+        for lamp in light.lamps:
+            to_lamp = np.subtract(lamp.position, lit_at)
+            rgb, depth = self._render(
+                view,
+                shadow=int(light.shadow),
+                lightDirection=to_lamp.tolist(),
+                lightDistance=float(np.linalg.norm(to_lamp)),
+                lightColor=[c / 255 for c in lamp.color],
+                lightAmbientCoeff=light.ambient / len(light.lamps),
+                lightDiffuseCoeff=lamp.intensity,
+                lightSpecularCoeff=0.0,
+            )
+            parts.append(rgb)
+        picture = parts[0]
+        if len(parts) > 1:
+            picture = np.minimum(np.sum(parts, axis=0, dtype=np.uint16), 255).astype(np.uint8)
+        # The renderer's own sky is white, which is the target's colour.
+        picture[depth > 1 - 1e-6] = light.backdrop_color
+        return picture
+
+    def _render(self, view: View, **light: Any) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
+        """Picture (H, W, 3) and depth buffer (H, W), 1 where nothing was drawn."""
+        p = self._p
+        _, _, rgba, depth, _ = p.getCameraImage(
+            view.width,
+            view.height,
+            p.computeViewMatrix(view.eye, view.look_at, (0, 0, 1)),
+            p.computeProjectionMatrixFOV(view.fov_deg, view.width / view.height, view.near, view.far),
+            renderer=p.ER_TINY_RENDERER,
+            flags=p.ER_NO_SEGMENTATION_MASK,
+            physicsClientId=self._client,
+            **light,
+        )
+        # Where pybullet was compiled without numpy the image is a flat tuple.
+        pixels = np.asarray(rgba, np.uint8).reshape(view.height, view.width, 4)
+        rgb = np.asarray(cv2.cvtColor(pixels, cv2.COLOR_RGBA2RGB), np.uint8)
+        return rgb, np.asarray(depth, np.float32).reshape(view.height, view.width)
+
+    def _add(
+        self,
+        shape: int,
+        touched: dict[str, Any],
+        seen: dict[str, Any],
+        centre: Sequence[float],
+        yaw: float,
+        color: Color,
+        solid: bool,
+    ) -> int:
+        p, client = self._p, self._client
+        collision = p.createCollisionShape(shape, **touched, physicsClientId=client) if solid else -1
+        rgba = [*(c / 255 for c in color), 1]
+        visual = p.createVisualShape(shape, **seen, rgbaColor=rgba, physicsClientId=client)
+        turn = p.getQuaternionFromEuler([0, 0, yaw])
+        return int(p.createMultiBody(0, collision, visual, list(centre), turn, physicsClientId=client))
+
+
+class Body:
+    """A robot in the engine: where its base is, and its wheels."""
+
+    def __init__(self, p: Any, client: int, number: int, joints: list[int]) -> None:
+        self._p = p
+        self._client = client
+        self.number = number
+        self.joints = joints
+        # The engine speaks of the centre of mass, which lies at a fixed offset from the base frame.
+        self._com: tuple[float, ...] = p.getDynamicsInfo(number, -1, physicsClientId=client)[3]
+
+    def place(self, x: float, y: float, yaw: float) -> None:
+        """Put the base frame on the floor at x, y [m], yaw [rad]."""
+        c, s = math.cos(yaw), math.sin(yaw)
+        dx, dy, dz = self._com
+        position = [x + c * dx - s * dy, y + s * dx + c * dy, dz]
+        turn = self._p.getQuaternionFromEuler([0, 0, yaw])
+        self._p.resetBasePositionAndOrientation(self.number, position, turn, physicsClientId=self._client)
+
+    def pose(self) -> tuple[float, float, float]:
+        """x, y [m], yaw [rad] of the base frame."""
+        (x, y, _), (qx, qy, qz, qw) = self._p.getBasePositionAndOrientation(
+            self.number, physicsClientId=self._client
+        )
+        yaw = math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
+        c, s = math.cos(yaw), math.sin(yaw)
+        dx, dy, _ = self._com
+        return x - c * dx + s * dy, y - s * dx - c * dy, yaw
+
+    def wheel_angles(self) -> list[float]:
+        """Angles of the wheels [rad], not wrapped, in the order of their names."""
+        states = self._p.getJointStates(self.number, self.joints, physicsClientId=self._client)
+        return [state[0] for state in states]
+
+    def command_wheels(self, speeds: Sequence[float], torque: float) -> None:
+        """Hold wheel speeds [rad/s] with at most a torque [N m]."""
+        self._p.setJointMotorControlArray(
+            self.number,
+            self.joints,
+            self._p.VELOCITY_CONTROL,
+            targetVelocities=speeds,
+            forces=[torque] * len(self.joints),
+            physicsClientId=self._client,
+        )
+
+    def touches(self, other: int) -> bool:
+        """Whether it is in contact with another body."""
+        return bool(self._p.getContactPoints(self.number, other, physicsClientId=self._client))
+
+
+def _import_pybullet() -> Any:
+    try:
+        with _quiet():
+            import pybullet
+    except ImportError:
+        raise MissingExtraError("the simulator", "pybullet", "sim") from None
+    return pybullet
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep the banner that the engine's library prints when it is loaded out of our output."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    kept = [(fd, os.dup(fd)) for fd in (1, 2)]
+    with open(os.devnull, "w") as sink:
+        for fd, _ in kept:
+            os.dup2(sink.fileno(), fd)
+    try:
+        yield
+    finally:
+        for fd, copy in kept:
+            os.dup2(copy, fd)
+            os.close(copy)

@@ -1,0 +1,183 @@
+"""The arena: a robot with a marked cylinder in a room, watched by the station."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, ClassVar
+
+import gymnasium as gym
+import numpy as np
+from gymnasium import spaces
+from numpy.typing import NDArray
+
+from estimators.calibration import Calibration
+from estimators.errors import ConfigError
+from estimators.messages import Message, PoseEstimate
+from estimators.poses import Array, Pose2
+from gt_env.config import ConfigLike, load_config
+from gt_env.config.schema import pose_problem
+from gt_env.render.overview import Overview
+from gt_env.render.window import available as window_available
+from gt_env.render.window import why_unavailable
+from gt_env.world import World
+
+Observation = dict[str, NDArray[Any]]
+Info = dict[str, Any]
+
+
+class ArenaEnv(gym.Env[Observation, Array]):
+    """Drive a robot in a room while a station of a laser rangefinder and a panning camera watches it.
+
+    There is no task: the reward is 0 and an episode never ends by itself.
+
+    ## Action space
+    `Box(-1, 1, (2,), float64)`: speeds of the left and the right wheel over the robot's maximum
+    (`robot.max_wheel_speed`, 29.4 rad/s by default), held for one step (`timing.step`, 0.1 s).
+
+    ## Observation space
+    A flat `Dict`. A sensor with nothing new repeats its last value with its old stamp; one that is switched
+    off has no key.
+
+    | key | shape | unit | what |
+    |---|---|---|---|
+    | `scan` | (beams,) float32 | m | the LRF's ranges; no return reads `lrf.range_max` |
+    | `image` | (H, W, 3) uint8 | | the camera's frame, RGB; not with `camera.in_observation = false` |
+    | `camera_pan` | (1,) float32 | rad | the pan unit's encoder when that frame was taken |
+    | `wheel_speeds` | (2,) float32 | rad/s | from the robot's encoders |
+    | `stamps` | (k,) float64 | s | when each enabled sensor measured: LRF, camera, encoders |
+
+    ## Info
+    | key | shape | unit | what |
+    |---|---|---|---|
+    | `true_pose` | (3,) | m, m, rad | the simulator's pose of the robot's base |
+    | `t` | | s | time since the start of the episode |
+
+    `env.unwrapped.measurements` holds every message since the last step in the order of delivery, and
+    `env.unwrapped.truth` the true pose at every physics tick since then, rows of t, x, y, yaw.
+
+    ## Start
+    At `robot.start`, or at `reset(options={"pose": (x, y, yaw)})`, at rest, pan unit settled on the first scan.
+
+    ## Arguments
+    `config`: an `EnvConfig`, a mapping, a preset's name or a TOML file's path. `render_mode`: `rgb_array`, or
+    `human` where there is a display.
+
+    ## Version history
+    v0: first version.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {
+        "render_modes": ["rgb_array", *(["human"] if window_available() else [])],
+        "render_fps": 10,
+    }
+
+    def __init__(self, config: ConfigLike = None, render_mode: str | None = None) -> None:
+        if render_mode is not None and render_mode not in self.metadata["render_modes"]:
+            reason = f": {why_unavailable()}" if render_mode == "human" else ""
+            allowed = ", ".join(self.metadata["render_modes"])
+            raise ConfigError(f"render_mode = {render_mode!r}: must be one of {allowed}{reason}")
+        self.config = load_config(config)
+        self.render_mode = render_mode
+        self.metadata = {**self.metadata, "render_fps": max(1, round(1 / self.config.timing.step))}
+        self.believed_calibration: Calibration = self.config.believed().calibration()
+        self._room = self.config.room.in_station_frame()
+        self._ticks = self.config.ticks(self.config.timing.step)
+        self._world = World(self.config)
+        self.action_space = spaces.Box(-1.0, 1.0, (self._world.robot.wheels,), np.float64)
+        self.observation_space = spaces.Dict(self._world.spaces())
+        self._estimates: dict[str, PoseEstimate] = {}
+        self._overview: Overview | None = None
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, Info]:
+        """Start an episode.
+
+        Args:
+            seed: Of all randomness of this and the following episodes.
+            options: `pose`: x, y [m], yaw [rad] to start at.
+
+        Raises:
+            ConfigError: If an option is unknown, or the robot cannot stand at the pose.
+        """
+        super().reset(seed=seed)
+        pose = self._start_pose(options or {})
+        self._world.reset(pose, self.np_random)
+        self._estimates.clear()
+        if self._overview is not None:
+            self._overview.reset()
+        self._show()
+        return self._world.observe(), self._info()
+
+    def step(self, action: Array) -> tuple[Observation, float, bool, bool, Info]:
+        """Drive for one step.
+
+        Raises:
+            ConfigError: If the action is of the wrong shape or not finite.
+        """
+        self._world.robot.drive(self._checked(action))
+        self._world.advance(self._ticks)
+        self._show()
+        return self._world.observe(), 0.0, False, False, self._info()
+
+    def render(self) -> NDArray[np.uint8] | None:
+        """One picture of scene, camera, map and numbers (`rgb_array`), or refresh the window (`human`)."""
+        if self.render_mode is None:
+            gym.logger.warn("render() needs a render_mode: gymnasium.make(..., render_mode='rgb_array')")
+            return None
+        if self._overview is None:
+            window = self.render_mode == "human"
+            self._overview = Overview(self._world, self.believed_calibration, window)
+        return self._overview.draw(self._estimates)
+
+    def close(self) -> None:
+        """Disconnect from the engine and close the window."""
+        self._world.close()
+        if self._overview is not None:
+            self._overview.close()
+
+    @property
+    def measurements(self) -> tuple[Message, ...]:
+        """Every sensor's messages since the last step, in the order of delivery."""
+        return tuple(self._world.delivered)
+
+    @property
+    def truth(self) -> list[tuple[float, float, float, float]]:
+        """True t [s], x, y [m], yaw [rad] at every physics tick since the last step."""
+        return list(self._world.truth)
+
+    def show_estimate(self, name: str, estimate: PoseEstimate) -> None:
+        """Have an estimate drawn in the rendered pictures; wrappers call it after every step."""
+        self._estimates[name] = estimate
+        if self.render_mode == "human" and self._overview is not None:
+            self.render()
+
+    def _show(self) -> None:
+        if self.render_mode == "human":
+            self.render()
+        elif self._overview is not None:
+            self._overview.record(self._estimates)
+
+    def _info(self) -> Info:
+        return {"true_pose": np.array(self._world.robot.pose()), "t": self._world.time}
+
+    def _start_pose(self, options: dict[str, Any]) -> Pose2:
+        for key in options:
+            if key != "pose":
+                raise ConfigError(f"options[{key!r}]: unknown, must be 'pose'")
+        if options.get("pose") is None:
+            return self.config.start_pose
+        pose = Pose2.of(options["pose"])
+        problem = pose_problem(self.config, self._room, pose)
+        if problem:
+            raise ConfigError(f"options['pose'] = {pose.as_array().tolist()}: {problem}")
+        return pose
+
+    def _checked(self, action: Array) -> Array:
+        values = np.asarray(action, dtype=float)
+        shape = self.action_space.shape
+        if values.shape != shape or not math.isfinite(values.sum()):
+            raise ConfigError(f"action = {action!r}: must be {shape} finite numbers in [-1, 1]")
+        return np.clip(values, -1.0, 1.0)
+
+

@@ -1,0 +1,68 @@
+"""The room and what stands in it, built into the engine."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from estimators.room import Room
+from gt_env.config import EnvConfig
+from gt_env.config.sections import Color
+from gt_env.engine import Engine
+
+FLOOR_MARGIN = 1.0
+"""How far the floor goes on outside the room [m]."""
+STATION_COLOR: Color = (60, 90, 120)
+
+
+def build_scene(engine: Engine, config: EnvConfig, room: Room) -> tuple[int, list[int]]:
+    """Build floor, walls and station; returns the floor's and the walls' numbers."""
+    floor = engine.add_floor()
+    walls = _build_walls(engine, config, room)
+    _build_ground(engine, config, room)
+    _build_station(engine, config)
+    return floor, walls
+
+
+def _build_walls(engine: Engine, config: EnvConfig, room: Room) -> list[int]:
+    """One box per wall, outside the polygon, long enough that neighbours overlap at convex corners."""
+    c = config.room
+    start, end = room.edges
+    direction = np.stack([(v := b - a) / np.linalg.norm(v) for a, b in zip(start, end, strict=True)])
+    walls = []
+    for i, (a, b) in enumerate(zip(start, end, strict=True)):
+        along = direction[i]
+        before = _overlap(direction[i - 1], along, c.wall_thickness)
+        after = _overlap(along, direction[(i + 1) % len(direction)], c.wall_thickness)
+        a, b = a - before * along, b + after * along
+        outward = np.array([along[1], -along[0]])
+        x, y = 0.5 * (a + b) + 0.5 * c.wall_thickness * outward
+        half = [0.5 * float(np.linalg.norm(b - a)), 0.5 * c.wall_thickness, 0.5 * c.wall_height]
+        yaw = math.atan2(along[1], along[0])
+        walls.append(engine.add_box([x, y, half[2]], half, yaw, c.wall_color))
+    return walls
+
+
+def _overlap(before: np.ndarray, after: np.ndarray, thickness: float) -> float:
+    """How far a wall goes on past a corner to close it from outside [m]; not at all at a reflex corner."""
+    turn = math.atan2(before[0] * after[1] - before[1] * after[0], float(before @ after))
+    return thickness * math.tan(0.5 * min(turn, 0.9 * math.pi)) + 0.001 if turn > 0 else 0.0
+
+
+def _build_ground(engine: Engine, config: EnvConfig, room: Room) -> None:
+    """The floor as it is seen; the one that is rolled on has no end and no picture."""
+    low_x, low_y, high_x, high_y = room.bounds
+    middle = [0.5 * (low_x + high_x), 0.5 * (low_y + high_y), -0.01]
+    half = [0.5 * (high_x - low_x) + FLOOR_MARGIN, 0.5 * (high_y - low_y) + FLOOR_MARGIN, 0.01]
+    engine.add_box(middle, half, 0.0, config.room.floor_color, solid=False)
+
+
+def _build_station(engine: Engine, config: EnvConfig) -> None:
+    """LRF and the camera's post, to be seen in the overview; no ray meets them."""
+    engine.add_cylinder(
+        [0, 0, 0.5 * config.lrf.height], 0.02, config.lrf.height, STATION_COLOR, solid=False
+    )
+    x, y, z = config.camera.position
+    post = max(z - 0.03, 0.01)
+    engine.add_cylinder([x, y, 0.5 * post], 0.02, post, STATION_COLOR, solid=False)

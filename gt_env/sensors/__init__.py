@@ -1,0 +1,1 @@
+"""The station's and the robot's sensors: value, schedule and corruption. None of them sees the environment."""
