@@ -277,14 +277,23 @@ class Body:
         states = self._p.getJointStates(self.number, self.joints, physicsClientId=self._client)
         return [state[0] for state in states]
 
-    def command_wheels(self, speeds: Sequence[float], torque: float) -> None:
-        """Hold wheel speeds [rad/s] with at most a torque [N m]."""
+    def command_wheels(
+        self, angles: Sequence[float], speeds: Sequence[float], gain: float, torque: float
+    ) -> None:
+        """Run the wheels through angles [rad] at speeds [rad/s] with at most a torque [N m].
+
+        `gain` is the share of a difference in angle that is made up for within one tick.
+        """
+        n = len(self.joints)
         self._p.setJointMotorControlArray(
             self.number,
             self.joints,
-            self._p.VELOCITY_CONTROL,
+            self._p.POSITION_CONTROL,
+            targetPositions=angles,
             targetVelocities=speeds,
-            forces=[torque] * len(self.joints),
+            positionGains=[gain] * n,
+            velocityGains=[1.0] * n,
+            forces=[torque] * n,
             physicsClientId=self._client,
         )
 
