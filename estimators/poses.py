@@ -21,9 +21,12 @@ def wrap_angle(angle: float) -> float: ...
 def wrap_angle(angle: Array) -> Array: ...
 def wrap_angle(angle: float | Array) -> float | Array:
     """Bring an angle [rad] into (-pi, pi]."""
+    # Just above pi the remainder rounds up to the whole turn, which would give -pi.
     if isinstance(angle, np.ndarray):
-        return np.pi - np.mod(np.pi - angle, 2 * np.pi)
-    return math.pi - (math.pi - angle) % (2 * math.pi)
+        wrapped = np.pi - np.mod(np.pi - angle, 2 * np.pi)
+        return np.where(wrapped > -np.pi, wrapped, np.pi)
+    wrapped = math.pi - (math.pi - angle) % (2 * math.pi)
+    return wrapped if wrapped > -math.pi else math.pi
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

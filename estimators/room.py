@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -17,31 +17,26 @@ class Room:
 
     Attributes:
         vertices: (V, 2) corners [m], counter-clockwise.
+        obstacles: Footprints (K, 2) of what else stands there [m], clockwise, so that the room lies to the
+            left of every edge, theirs and its own.
 
     Raises:
         ConfigError: If the corners are fewer than three, not finite, enclose no area or cross themselves.
     """
 
     vertices: Array
+    obstacles: tuple[Array, ...] = ()
+    edges: tuple[Array, Array] = field(init=False)
+    """Start and end (E, 2) of every edge [m], the walls first."""
 
     def __post_init__(self) -> None:
-        v = np.array(self.vertices, float)
-        if v.ndim != 2 or v.shape[1] != 2 or len(v) < 3 or not np.isfinite(v).all():
-            raise ConfigError(f"a room needs at least three finite corners (x, y), got {v.tolist()}")
-        nxt = np.roll(v, -1, axis=0)
-        area = 0.5 * float(np.sum(v[:, 0] * nxt[:, 1] - nxt[:, 0] * v[:, 1]))
-        if abs(area) < 1e-9:
-            raise ConfigError(f"the room's corners enclose no area: {v.tolist()}")
-        if area < 0:
-            v = v[::-1].copy()
-        _refuse_crossing(v)
-        v.setflags(write=False)
-        object.__setattr__(self, "vertices", v)
-
-    @property
-    def edges(self) -> tuple[Array, Array]:
-        """Start and end (V, 2) of every wall [m]; the room lies to the left of each."""
-        return self.vertices, np.roll(self.vertices, -1, axis=0)
+        walls = _polygon(self.vertices, "the room", clockwise=False)
+        obstacles = tuple(_polygon(o, "an obstacle", clockwise=True) for o in self.obstacles)
+        start = np.concatenate([walls, *obstacles])
+        end = np.concatenate([np.roll(p, -1, axis=0) for p in (walls, *obstacles)])
+        object.__setattr__(self, "vertices", walls)
+        object.__setattr__(self, "obstacles", obstacles)
+        object.__setattr__(self, "edges", (start, end))
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:
@@ -50,15 +45,14 @@ class Room:
         return float(low[0]), float(low[1]), float(high[0]), float(high[1])
 
     def cast(self, origin: Sequence[float] | Array, bearings: Array) -> tuple[Array, Array]:
-        """Where rays from one point first meet a wall.
+        """Where rays from one point first meet a wall or an obstacle.
 
         Args:
             origin: (2,) a point inside the room [m].
             bearings: (N,) directions [rad].
 
         Returns:
-            Range to the wall (N,) [m], inf where a ray meets none, and the index of that wall (N,), which
-            runs from corner `index` to the next.
+            Range to the nearest edge (N,) [m], inf where a ray meets none, and the index of that edge (N,).
         """
         start, end = self.edges
         wall = end - start
@@ -76,7 +70,7 @@ class Room:
         return ranges[np.arange(len(bearings)), index], index
 
     def wall_distances(self, point: Sequence[float] | Array) -> Array:
-        """Perpendicular distance (V,) from a point to the line of each wall [m], positive inside."""
+        """Perpendicular distance (E,) from a point to the line of each edge [m], positive on the room's side."""
         start, end = self.edges
         wall = end - start
         to_point = np.asarray(point, float) - start
@@ -84,16 +78,12 @@ class Room:
         return cross / np.hypot(wall[:, 0], wall[:, 1])
 
     def contains(self, point: Sequence[float] | Array) -> bool:
-        """Whether a point (2,) lies inside (even-odd rule)."""
+        """Whether a point (2,) lies within the walls and in no obstacle."""
         x, y = (float(c) for c in point)
-        (x0, y0), (x1, y1) = (e.T for e in self.edges)
-        straddles = (y0 > y) != (y1 > y)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            crossing = x0 + (y - y0) * (x1 - x0) / (y1 - y0)
-        return bool(np.count_nonzero(straddles & (x < crossing)) % 2)
+        return _inside(self.vertices, x, y) and not any(_inside(o, x, y) for o in self.obstacles)
 
     def clearance(self, point: Sequence[float] | Array) -> float:
-        """Distance from a point (2,) to the nearest wall [m]; negative outside the room."""
+        """Distance from a point (2,) to the nearest wall or obstacle [m]; negative outside the room."""
         start, end = self.edges
         wall = end - start
         p = np.asarray(point, float)
@@ -113,10 +103,41 @@ class Room:
         return float(best)
 
 
+def _polygon(corners: Array, what: str, clockwise: bool) -> Array:
+    """The corners (V, 2) in the given sense, read-only."""
+    v = np.array(corners, float)
+    if v.ndim != 2 or v.shape[1] != 2 or len(v) < 3 or not np.isfinite(v).all():
+        raise ConfigError(f"{what} needs at least three finite corners (x, y), got {v.tolist()}")
+    nxt = np.roll(v, -1, axis=0)
+    area = 0.5 * float(np.sum(v[:, 0] * nxt[:, 1] - nxt[:, 0] * v[:, 1]))
+    if abs(area) < 1e-9:
+        raise ConfigError(f"the corners of {what} enclose no area: {v.tolist()}")
+    if (area < 0) != clockwise:
+        v = v[::-1].copy()
+    _refuse_crossing(v)
+    v.setflags(write=False)
+    return v
+
+
+def _inside(polygon: Array, x: float, y: float) -> bool:
+    """Even-odd rule."""
+    (x0, y0), (x1, y1) = polygon.T, np.roll(polygon, -1, axis=0).T
+    straddles = (y0 > y) != (y1 > y)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        crossing = x0 + (y - y0) * (x1 - x0) / (y1 - y0)
+    return bool(np.count_nonzero(straddles & (x < crossing)) % 2)
+
+
 def _refuse_crossing(v: Array) -> None:
-    """Raise if two walls that are not neighbours meet."""
+    """Raise if a wall has no length or turns back, or two walls that are not neighbours meet."""
     n = len(v)
     w = np.roll(v, -1, axis=0)
+    for a, b, c in zip(v, w, np.roll(v, -2, axis=0), strict=True):
+        one, two = b - a, c - b
+        if not one.any():
+            raise ConfigError(f"the room's corner {a.tolist()} is given twice")
+        if one[0] * two[1] == one[1] * two[0] and one @ two < 0:
+            raise ConfigError(f"the room's wall {a.tolist()}-{b.tolist()} turns back on itself")
 
     def side(a: Array, b: Array, c: Array) -> float:
         return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
@@ -125,7 +146,11 @@ def _refuse_crossing(v: Array) -> None:
         for j in range(i + 2, n - (i == 0)):
             first = side(v[i], w[i], v[j]) * side(v[i], w[i], w[j])
             second = side(v[j], w[j], v[i]) * side(v[j], w[j], w[i])
-            if first <= 0 and second <= 0:
+            # Walls on one line are on both sides of each other; they meet only where they overlap.
+            apart = (np.maximum(v[i], w[i]) < np.minimum(v[j], w[j])) | (
+                np.maximum(v[j], w[j]) < np.minimum(v[i], w[i])
+            )
+            if first <= 0 and second <= 0 and not apart.any():
                 raise ConfigError(
-                    f"the room's walls cross: {v[i].tolist()}-{w[i].tolist()} and {v[j].tolist()}-{w[j].tolist()}"
+                    f"walls cross: {v[i].tolist()}-{w[i].tolist()} and {v[j].tolist()}-{w[j].tolist()}"
                 )

@@ -16,7 +16,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from estimators.errors import MissingExtraError
+from estimators.errors import ConfigError, MissingExtraError
 from estimators.poses import Array
 from gt_env.config.sections import Color, LightConfig, PhysicsConfig
 
@@ -114,6 +114,19 @@ class Engine:
         touched = {"radius": radius, "height": height}
         seen = {"radius": radius, "length": height}
         return self._add(self._p.GEOM_CYLINDER, touched, seen, centre, 0.0, color, solid)
+
+    def add_urdf(self, file: str, x: float, y: float, yaw: float) -> int:
+        """A fixed body from a URDF file, with its base frame at x, y [m] on the floor, turned by yaw [rad].
+
+        Raises:
+            ConfigError: If the engine cannot load the file.
+        """
+        p = self._p
+        turn = p.getQuaternionFromEuler([0, 0, yaw])
+        try:
+            return int(p.loadURDF(file, [x, y, 0], turn, useFixedBase=1, physicsClientId=self._client))
+        except p.error as error:
+            raise ConfigError(f"obstacle {file!r}: must be a URDF file that can be loaded: {error}") from None
 
     def add_robot(self, urdf: str, x: float, y: float, yaw: float, ground: int, wheels: Sequence[str]) -> Body:
         """A robot whose wheels roll on the ground and whose body slides along everything else.

@@ -9,6 +9,7 @@ from xml.etree import ElementTree as ET
 from estimators.calibration import DEG
 from gt_env.config.sections import Color, RobotConfig, TargetConfig
 
+Vector = tuple[float, float, float]
 WHEEL_JOINTS = ("left_wheel_joint", "right_wheel_joint")
 MARKER_DEPTH = 0.02
 """Depth of the box that a marker is made of [m]; all but its protrusion is inside the cylinder."""
@@ -29,9 +30,7 @@ def differential_robot(robot: RobotConfig, target: TargetConfig) -> str:
     """
     root = ET.Element("robot", name="differential")
     base = ET.SubElement(root, "link", name="base")
-    height = target.z_min - robot.ground_clearance
-    size = (robot.length, robot.track - robot.wheel_width - 0.004, height)
-    middle = (0.0, 0.0, robot.ground_clearance + 0.5 * height)
+    size, middle = body_box(robot, target)
     _base_inertia(base, robot, target, size, middle)
     _shape(base, "both", _box(size), middle, color=robot.color, name="body")
     for side in (1, -1):
@@ -44,6 +43,13 @@ def differential_robot(robot: RobotConfig, target: TargetConfig) -> str:
     for joint, side in zip(WHEEL_JOINTS, (1, -1), strict=True):
         _wheel(root, joint, side * 0.5 * robot.track, robot)
     return ET.tostring(root, encoding="unicode")
+
+
+def body_box(robot: RobotConfig, target: TargetConfig) -> tuple[Vector, Vector]:
+    """Size and middle of the body [m], in the base frame: from the ground clearance up to the target."""
+    height = target.z_min - robot.ground_clearance
+    size = (robot.length, robot.track - robot.wheel_width - 0.004, height)
+    return size, (0.0, 0.0, robot.ground_clearance + 0.5 * height)
 
 
 def _add_target(link: ET.Element, target: TargetConfig) -> None:

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from estimators.calibration import DEG
 from estimators.room import Room
 from gt_env.config import EnvConfig
 from gt_env.config.sections import Color
@@ -17,9 +18,9 @@ STATION_COLOR: Color = (60, 90, 120)
 
 
 def build_scene(engine: Engine, config: EnvConfig, room: Room) -> tuple[int, list[int]]:
-    """Build floor, walls and station; returns the floor's and the walls' numbers."""
+    """Build floor, walls, obstacles and station; returns the floor's number and those of what one can hit."""
     floor = engine.add_floor()
-    walls = _build_walls(engine, config, room)
+    walls = _build_walls(engine, config, room) + _build_obstacles(engine, config)
     _build_ground(engine, config, room)
     _build_station(engine, config)
     return floor, walls
@@ -28,7 +29,7 @@ def build_scene(engine: Engine, config: EnvConfig, room: Room) -> tuple[int, lis
 def _build_walls(engine: Engine, config: EnvConfig, room: Room) -> list[int]:
     """One box per wall, outside the polygon, long enough that neighbours overlap at convex corners."""
     c = config.room
-    start, end = room.edges
+    start, end = room.vertices, np.roll(room.vertices, -1, axis=0)
     direction = np.stack([(v := b - a) / np.linalg.norm(v) for a, b in zip(start, end, strict=True)])
     walls = []
     for i, (a, b) in enumerate(zip(start, end, strict=True)):
@@ -48,6 +49,21 @@ def _overlap(before: np.ndarray, after: np.ndarray, thickness: float) -> float:
     """How far a wall goes on past a corner to close it from outside [m]; not at all at a reflex corner."""
     turn = math.atan2(before[0] * after[1] - before[1] * after[0], float(before @ after))
     return thickness * math.tan(0.5 * min(turn, 0.9 * math.pi)) + 0.001 if turn > 0 else 0.0
+
+
+def _build_obstacles(engine: Engine, config: EnvConfig) -> list[int]:
+    bodies = []
+    for obstacle in config.room.obstacles:
+        x, y = obstacle.position
+        if obstacle.shape == "box":
+            half = [0.5 * s for s in obstacle.size]
+            bodies.append(engine.add_box([x, y, half[2]], half, obstacle.yaw_deg * DEG, obstacle.color))
+        elif obstacle.shape == "cylinder":
+            centre = [x, y, 0.5 * obstacle.height]
+            bodies.append(engine.add_cylinder(centre, obstacle.radius, obstacle.height, obstacle.color))
+        else:
+            bodies.append(engine.add_urdf(obstacle.file, x, y, obstacle.yaw_deg * DEG))
+    return bodies
 
 
 def _build_ground(engine: Engine, config: EnvConfig, room: Room) -> None:

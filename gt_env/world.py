@@ -17,8 +17,9 @@ from gt_env.robot import DifferentialRobot
 from gt_env.scene import build_scene
 from gt_env.sensors.camera import Camera
 from gt_env.sensors.encoders import WheelEncoders
-from gt_env.sensors.lrf import LaserRangefinder
+from gt_env.sensors.lrf import LaserRangefinder, RobotPose
 from gt_env.sensors.pan_unit import PanUnit
+from gt_env.sensors.ranging import make_ranging
 
 
 STILL = 1e-5
@@ -45,7 +46,7 @@ class World:
         self.engine = Engine(config.physics, config.timing.tick)
         self.room = config.room.in_station_frame()
         self.robot = DifferentialRobot(config)
-        self.lrf = LaserRangefinder(config.lrf, believed.lrf, self.engine.cast)
+        self.lrf = LaserRangefinder(config.lrf, believed.lrf, make_ranging(config, self.engine))
         self.camera = Camera(config.camera, self._camera_picture)
         self.pan = PanUnit(config.pan, config.timing.tick)
         self.encoders = WheelEncoders(config.robot, self.robot.wheels)
@@ -140,17 +141,27 @@ class World:
     def _measure(self) -> None:
         """Let every sensor that is due at this tick measure, and the tracker turn the camera."""
         t = self.time
-        self.truth.append((t, *self.robot.pose()))
-        if self.config.lrf.enabled and self._due("lrf"):
-            scan = self.lrf.measure(t)
-            self._tracker.observe(scan)
-            self.delivered.append(scan)
+        pose = self.robot.pose()
+        self.truth.append((t, *pose))
+        if self.config.lrf.enabled:
+            self._scan(t, pose)
         if self._due("tracker"):
             self._track(t)
         if self.config.camera.enabled and self._due("camera"):
             self.delivered.append(self.camera.measure(t, self.pan.direction, self.pan.encoder))
         if self._due("encoders"):
             self.delivered.append(self.encoders.measure(t, self.robot.wheel_angles()))
+
+    def _scan(self, t: float, pose: RobotPose) -> None:
+        due = self._due("lrf")
+        if self._tick == 0 or not self.config.lrf.sweep_time:
+            # There is no past to sweep through at reset: the first scan is taken at once.
+            scan = self.lrf.measure(t, pose) if due else None
+        else:
+            scan = self.lrf.follow(t, pose, due)
+        if scan is not None:
+            self._tracker.observe(scan)
+            self.delivered.append(scan)
 
     def _track(self, t: float) -> None:
         angle = self._tracker.command(t, self.pan.encoder)

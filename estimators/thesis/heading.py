@@ -38,9 +38,11 @@ def heading_in_image(sighting: TargetSighting, target: TargetGeometry) -> float 
         target: Believed marker angles.
 
     Returns:
-        None if no marker lies within one radius to the right of the fixed point.
+        None if no marker lies within one radius to the right of the fixed point, or the target is one column.
     """
     r = 0.5 * (sighting.right - sighting.left)
+    if r <= 0:
+        return None
     centre = 0.5 * (sighting.left + sighting.right)
     fixed_point = centre - FIXED_POINT * r  # eq. 4.9
     for column, color in zip(sighting.marker_columns, sighting.marker_colors, strict=True):

@@ -91,6 +91,8 @@ class TickedAverage:
             return None
         self._run(math.floor((stamp - self._start) / self.period + 1e-6) + 1)
         n = len(self._window)
+        if n == 0:  # asked for a time before the first value
+            return None
         return sum(x for x, _ in self._window) / n, sum(y for _, y in self._window) / n
 
     def _run(self, ticks: int) -> None:

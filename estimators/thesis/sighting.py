@@ -15,7 +15,8 @@ GREY_REFERENCE = 100
 def is_target(pixels: NDArray[np.uint8], reference: int = GREY_REFERENCE) -> NDArray[np.bool_]:
     """The grey test: which pixels (..., 3) have R = G = B, and that not below the reference (...,)."""
     r, g, b = pixels[..., 0], pixels[..., 1], pixels[..., 2]
-    return (r == g) & (g == b) & (r >= reference)
+    grey: NDArray[np.bool_] = (r == g) & (g == b) & (r >= reference)
+    return grey
 
 
 def _ends(mask: NDArray[np.bool_]) -> tuple[int, int] | None:
@@ -68,7 +69,7 @@ def _markers(row: NDArray[np.uint8], target: TargetGeometry) -> tuple[NDArray[np
     code = on @ np.array([1, 2, 4])
     index_of = np.full(8, -1)
     for index, color in enumerate(target.marker_colors):
-        index_of[np.array(color) @ np.array([1, 2, 4]) // max(color)] = index
+        index_of[(2 * np.array(color) > max(color)) @ np.array([1, 2, 4])] = index
     index_of[0] = index_of[7] = -1  # dark and grey are no markers
     index = index_of[code]
     change = np.flatnonzero(np.diff(index, prepend=-1, append=-1))

@@ -70,6 +70,8 @@ def _values(config: ConfigLike) -> tuple[dict[str, Any], str]:
         return _over_preset(config, "config"), "config"
     if isinstance(config, str) and config in presets():
         return _preset(config), config
+    if not isinstance(config, str | Path):
+        raise ConfigError(f"config = {config!r}: must be an EnvConfig, a mapping, a preset's name or a path")
     path = Path(config)
     if not path.is_file():
         raise ConfigError(

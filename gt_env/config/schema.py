@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import asdict, field
 from typing import Any
@@ -76,7 +77,7 @@ class EnvConfig:
     def calibration(self) -> Calibration:
         """Station, target and room as they are."""
         return Calibration(
-            room=self.room.in_station_frame(),
+            room=self.room.in_station_frame(self.lrf.height),
             lrf=self.lrf.calibration(),
             camera=self.camera.calibration(self.pan),
             target=self.target.calibration(),
@@ -113,7 +114,24 @@ def _problems(c: EnvConfig) -> Iterator[str]:
             f"lrf.height = {c.lrf.height}: must be between target.z_min = {c.target.z_min} and target.z_max = "
             f"{c.target.z_max}, else the LRF does not see the target"
         )
+    yield from _lrf_problems(c)
     yield from _room_problems(c)
+
+
+def _lrf_problems(c: EnvConfig) -> Iterator[str]:
+    if c.lrf.sweep_time > 1 / c.lrf.rate:
+        yield f"lrf.sweep_time = {c.lrf.sweep_time}: must not exceed the time between scans, {1 / c.lrf.rate:g} s"
+    if c.lrf.sweep_time and c.lrf.backend == "bullet":
+        yield (
+            f"lrf.sweep_time = {c.lrf.sweep_time}: must be 0 with lrf.backend = 'bullet', whose world stands at one "
+            f"instant; 'closed_form' sweeps"
+        )
+    for i, obstacle in enumerate(c.room.obstacles):
+        if obstacle.shape == "urdf" and c.lrf.enabled and c.lrf.backend == "closed_form":
+            yield (
+                f"room.obstacles.{i} = {obstacle.file!r}: lrf.backend = 'closed_form' cannot range a URDF: use "
+                f"lrf.backend = 'bullet', or an obstacle of shape 'box' or 'cylinder'"
+            )
 
 
 def _timing_problems(c: EnvConfig) -> Iterator[str]:
@@ -126,7 +144,7 @@ def _timing_problems(c: EnvConfig) -> Iterator[str]:
     }
     for key, period in periods.items():
         ticks = period / c.timing.tick
-        if ticks < 0.5 or abs(ticks - round(ticks)) > 1e-6 * ticks:
+        if math.isinf(ticks) or ticks < 0.5 or abs(ticks - round(ticks)) > 1e-6 * ticks:
             value = f"{period:g} s" if key == "timing.step" else f"{1 / period:g} Hz"
             yield (
                 f"{key} = {value}: its period must be a whole multiple of timing.tick = {c.timing.tick:g} s, "
@@ -135,9 +153,15 @@ def _timing_problems(c: EnvConfig) -> Iterator[str]:
 
 
 def _room_problems(c: EnvConfig) -> Iterator[str]:
-    room = c.room.in_station_frame()
+    try:
+        room = c.room.in_station_frame()
+    except ConfigError as error:
+        yield f"room.vertices = {[list(v) for v in c.room.vertices]}: {error}"
+        return
     if room.clearance((0.0, 0.0)) <= 0:
         yield f"room.station = {list(c.room.station)}: the LRF must stand inside room.vertices"
+    if room.clearance(c.lrf.position) <= 0:
+        yield f"lrf.position = {list(c.lrf.position)}: the LRF must stand inside the room"
     if room.clearance(c.camera.position[:2]) <= 0:
         yield f"camera.position = {list(c.camera.position)}: must be inside the room"
     problem = pose_problem(c, room, c.start_pose)

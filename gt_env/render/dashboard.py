@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,8 +40,8 @@ def _inner_size(box: tuple[int, int, int, int]) -> tuple[int, int]:
 class Dashboard:
     """Draws frames (720, 1280, 3) uint8 RGB, and remembers what trails and charts need.
 
-    What a simulator's windows show beside one another: the scene, the camera's image, a map with walls, scan,
-    acceptance zone, true pose and estimates, a close-up of it around the robot, a chart and a sheet of numbers.
+    What a simulator's windows show beside one another: the scene, the camera's image, a map with walls,
+    scan, acceptance zone, true pose and estimates, a close-up of the robot, a chart and a sheet of numbers.
 
     Args:
         calibration: Of the station as it is.
@@ -95,7 +95,7 @@ class Dashboard:
         pan: float | None,
         t: float,
         true_pose: Pose2,
-        wheel_speeds: Sequence[float] | Array,
+        wheel_speeds: Sequence[float] | NDArray[np.floating[Any]],
         estimates: Mapping[str, PoseEstimate],
     ) -> Image:
         """Draw a frame.

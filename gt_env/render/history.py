@@ -84,7 +84,7 @@ class History:
         return None
 
     def error(self, estimate: PoseEstimate) -> tuple[float, float]:
-        """Distance [m] and yaw error [rad] of an estimate against the true pose at its stamp; NaN if unknown."""
+        """Distance [m] and yaw error [rad] of an estimate at its stamp; NaN if unknown."""
         true_pose = self.true_pose_at(estimate.stamp) if estimate.valid else None
         if true_pose is None:
             return NOTHING

@@ -135,7 +135,9 @@ class MapView:
         """Draw an arrow from a pose along its x axis; length [m], thickness [px]."""
         head = min(0.4 * length, (8.0 + thickness) / self.scale)
         shaft = pose.apply(np.array([(0.0, 0.0), (length - head, 0.0)]))
-        tip = pose.apply(np.array([(length, 0.0), (length - head, 0.45 * head), (length - head, -0.45 * head)]))
+        tip = pose.apply(
+            np.array([(length, 0.0), (length - head, 0.45 * head), (length - head, -0.45 * head)])
+        )
         self.line(canvas, shaft, color, thickness)
         self.fill(canvas, tip, color)
 

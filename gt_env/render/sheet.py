@@ -68,7 +68,7 @@ class Sheet:
             put_text(canvas, f"wheels {wheels} rad/s", (9, self._row(10) + 4), height=8)
 
     def _column(self, canvas: Image, right: float, name: str, color: Color, cells: Sequence[str]) -> None:
-        put_text(canvas, name, (right, self._row(0)), color, height=8.5, align="right", bold=True)
+        put_text(canvas, name, (right, self._row(0)), color, height=9, align="right")
         for i, cell in enumerate(cells):
             put_text(canvas, cell, (right, self._row(i + 1)), style.INK, height=8, align="right")
 
@@ -87,7 +87,10 @@ def _estimate_cells(estimate: PoseEstimate, error: tuple[float, float]) -> list[
         return ["no fix"]
     sigma = np.sqrt(np.diag(estimate.covariance).clip(min=0.0))
     known = np.diag(estimate.covariance) < NO_COVARIANCE
-    sigmas = [f"{s * unit:.{digits}f}" for s, unit, digits in zip(sigma, (1e3, 1e3, 1 / DEG), (1, 1, 2), strict=True)]
+    sigmas = [
+        f"{s * unit:.{digits}f}"
+        for s, unit, digits in zip(sigma, (1e3, 1e3, 1 / DEG), (1, 1, 2), strict=True)
+    ]
     if not estimate.yaw_valid:
         known[2] = False
     errors = [f"{error[0] * 1e3:.1f}", f"{error[1] / DEG:+.2f}"]

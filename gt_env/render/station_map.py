@@ -146,4 +146,3 @@ def grid_lines(bounds: tuple[float, float, float, float], step: float) -> Array:
     rows = step * np.arange(math.ceil(y0 / step), math.floor(y1 / step) + 1)
     lines = [[(x, y0), (x, y1)] for x in columns] + [[(x0, y), (x1, y)] for y in rows]
     return np.array(lines).reshape(-1, 2, 2)
-

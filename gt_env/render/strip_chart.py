@@ -19,7 +19,7 @@ from gt_env.render.style import Color, Image, put_text
 
 SPAN: Final = 20.0
 """Width of a strip [s]."""
-_LEFT, _RIGHT, _TOP, _BOTTOM, _GAP = 40, 10, 6, 20, 18
+_LEFT, _RIGHT, _TOP, _BOTTOM, _GAP = 40, 16, 2, 20, 20
 
 
 class StripChart:
@@ -46,7 +46,12 @@ class StripChart:
             canvas, 0, "position error [mm]", x, [(e[:, 0] * 1e3, colors[n]) for n, e in errors.items()]
         )
         self._strip(
-            canvas, 1, "yaw error [deg]", x, [(e[:, 1] / DEG, colors[n]) for n, e in errors.items()], signed=True
+            canvas,
+            1,
+            "yaw error [deg]",
+            x,
+            [(e[:, 1] / DEG, colors[n]) for n, e in errors.items()],
+            signed=True,
         )
         self._strip(canvas, 2, "true speed [m/s]", x, [(history.speeds()[recent], style.TRUE_COLOR)])
         self._time_axis(canvas, end)
@@ -68,7 +73,8 @@ class StripChart:
         for value in (low, 0.5 * (low + limit), limit):
             row = round(bottom - (value - low) / (limit - low) * self._height)
             canvas[row, _LEFT : _LEFT + self._width] = style.RULE
-            put_text(canvas, f"{value:g}", (_LEFT - 5, row + 3), style.FAINT, height=7.0, align="right")
+            if value != 0.5 * limit:  # two numbers a strip: three would touch
+                put_text(canvas, f"{value:g}", (_LEFT - 5, row + 3), style.FAINT, height=7.0, align="right")
         plot = canvas[top - 1 : bottom + 2, _LEFT : _LEFT + self._width + 1]
         for curve, color in curves:
             y = self._height * (1 - (curve - low) / (limit - low)) + 1
@@ -86,7 +92,9 @@ class StripChart:
 
 def _limit(curves: list[Array]) -> float:
     """A round number that no curve exceeds."""
-    largest = max((float(np.nanmax(np.abs(c), initial=0.0)) for c in curves if np.isfinite(c).any()), default=0.0)
+    largest = max(
+        (float(np.nanmax(np.abs(c), initial=0.0)) for c in curves if np.isfinite(c).any()), default=0.0
+    )
     if largest < 1e-6:
         return 1.0
     step = round_step(largest)

@@ -49,7 +49,6 @@ def put_text(
     *,
     height: float = 9.0,
     align: Literal["left", "centre", "right"] = "left",
-    bold: bool = False,
 ) -> int:
     """Write one line of ASCII.
 
@@ -60,16 +59,15 @@ def put_text(
         color: RGB.
         height: Of a capital letter [px].
         align: What of the text `at` names.
-        bold: Whether to draw thicker strokes.
 
     Returns:
         Width of the text [px].
     """
-    scale, thickness = height / _PIXELS_PER_SCALE, 2 if bold else 1
-    width = cv2.getTextSize(text, _FONT, scale, thickness)[0][0]
+    scale = height / _PIXELS_PER_SCALE
+    width = cv2.getTextSize(text, _FONT, scale, 1)[0][0]
     shift = {"left": 0.0, "centre": 0.5, "right": 1.0}[align] * width
     place = (round(at[0] - shift), round(at[1]))
-    cv2.putText(canvas, text, place, _FONT, scale, color, thickness, cv2.LINE_AA)
+    cv2.putText(canvas, text, place, _FONT, scale, color, 1, cv2.LINE_AA)
     return int(width)
 
 
@@ -112,10 +110,8 @@ def fit_image(image: Image, canvas: Image) -> None:
     height, width = canvas.shape[:2]
     factor = min(width / image.shape[1], height / image.shape[0])
     size = (max(1, round(image.shape[1] * factor)), max(1, round(image.shape[0] * factor)))
-    if factor < 1:
-        how = cv2.INTER_AREA
-    else:  # a handful of pixels should be seen as such
-        how = cv2.INTER_NEAREST if factor > 3 else cv2.INTER_LINEAR
+    enlarged = cv2.INTER_NEAREST if factor > 3 else cv2.INTER_LINEAR  # a few pixels should be seen as such
+    how = cv2.INTER_AREA if factor < 1 else enlarged
     scaled = cv2.resize(image, size, interpolation=how) if factor != 1 else image
     left, top = (width - size[0]) // 2, (height - size[1]) // 2
     canvas[:] = RULE

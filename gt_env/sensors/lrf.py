@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from typing import Protocol
 
 import numpy as np
 from gymnasium.spaces import Box
@@ -13,8 +13,24 @@ from estimators.messages import STATION_LRF, LaserScan
 from estimators.poses import Array
 from gt_env.config.sections import LrfConfig
 
-Cast = Callable[[tuple[float, float, float], Array, float], Array]
-"""Distances (N,) [m] from an origin x, y, z along bearings (N,) up to a reach; inf where nothing is met."""
+RobotPose = tuple[float, float, float]
+"""True x, y [m], yaw [rad] of the robot's base."""
+
+
+class Ranging(Protocol):
+    """How distances (N,) [m] along the beams are found; inf where nothing is met."""
+
+    def cast(self, x: float, y: float, yaw: float) -> Array:
+        """All beams at once, with the robot at a pose [m, m, rad]."""
+
+    def cast_swept(self, poses: Array) -> Array:
+        """Each beam with the robot at a pose of its own: (N, 3)."""
+
+
+def beam_bearings(config: LrfConfig) -> Array:
+    """Directions (N,) of the beams in the station's frame [rad]."""
+    degrees = config.bearing_min_deg + config.bearing_increment_deg * np.arange(config.beams)
+    return DEG * (config.yaw_deg + degrees)
 
 
 class LaserRangefinder:
@@ -23,19 +39,22 @@ class LaserRangefinder:
     Surfaces nearer than `range_min` or farther than `range_max` give no return, which reads `range_max`.
     The message says the bearings that the driver believes in; the beams go where the hardware points.
 
+    A sensor that sweeps follows the robot from the first beam to the last: each beam sees the pose at its
+    own time, and the scan, stamped at its first beam, is delivered after the last.
+
     Args:
         config: What the sensor is.
         believed: What its driver believes it is.
-        cast: How distances are found.
+        ranging: How distances are found.
     """
 
-    def __init__(self, config: LrfConfig, believed: LrfConfig, cast: Cast) -> None:
+    def __init__(self, config: LrfConfig, believed: LrfConfig, ranging: Ranging) -> None:
         self._config = config
         self._believed = believed
-        self._cast = cast
-        beams = np.arange(config.beams)
-        self._bearings = DEG * (config.yaw_deg + config.bearing_min_deg + config.bearing_increment_deg * beams)
-        self._origin = (*config.position, config.height)
+        self._ranging = ranging
+        self._time_increment = config.sweep_time / max(config.beams - 1, 1)
+        self._beam_times = self._time_increment * np.arange(config.beams)
+        self._track: list[tuple[float, float, float, float]] = []
 
     def space(self) -> Box:
         """Space of `observe`: (beams,) float32 [m]."""
@@ -46,22 +65,52 @@ class LaserRangefinder:
         spread = self._config.range_bias_spread
         self._rng = rng
         self._bias = self._config.range_bias + rng.uniform(-spread, spread)
+        self._track.clear()
 
-    def measure(self, stamp: float) -> LaserScan:
-        """Take one scan, all beams at once."""
+    def measure(self, stamp: float, pose: RobotPose) -> LaserScan:
+        """Take a scan, all beams at once."""
+        return self._deliver(stamp, self._ranging.cast(*pose), 0.0)
+
+    def follow(self, stamp: float, pose: RobotPose, due: bool) -> LaserScan | None:
+        """Let a tick pass for a sensor that sweeps; the scan once its last beam is measured.
+
+        Args:
+            stamp: [s].
+            pose: True pose of the robot now.
+            due: Whether a sweep starts now.
+        """
+        scan = None
+        if self._track:
+            self._track.append((stamp, *pose))
+            start = self._track[0][0]
+            if stamp - start >= self._config.sweep_time - 1e-9:
+                scan = self._deliver(start, self._ranging.cast_swept(self._poses_at_beams()), self._time_increment)
+                self._track.clear()
+        if due:
+            self._track = [(stamp, *pose)]
+        return scan
+
+    def _poses_at_beams(self) -> Array:
+        """The robot's pose (N, 3) when each beam was measured, straight between ticks."""
+        track = np.array(self._track)
+        at = track[0, 0] + self._beam_times
+        yaw = np.unwrap(track[:, 3])
+        return np.stack([np.interp(at, track[:, 0], v) for v in (track[:, 1], track[:, 2], yaw)], axis=1)
+
+    def _deliver(self, stamp: float, true: Array, time_increment: float) -> LaserScan:
         c = self._config
-        true = self._cast(self._origin, self._bearings, c.range_max)
         ranges = true + self._bias
         if c.noise_sigma:
             ranges += self._rng.normal(0.0, c.noise_sigma, len(ranges))
-        ranges = np.clip(ranges, c.range_min, c.range_max)
-        ranges[~((true >= c.range_min) & (true <= c.range_max))] = c.range_max
+        np.clip(ranges, c.range_min, c.range_max, out=ranges)
+        ranges[(true < c.range_min) | (true > c.range_max)] = c.range_max
         self._scan = LaserScan(
             stamp=stamp,
             source=STATION_LRF,
             ranges=ranges.astype(np.float32),
             bearing_min=self._believed.bearing_min_deg * DEG,
             bearing_increment=self._believed.bearing_increment_deg * DEG,
+            time_increment=time_increment,
             range_min=c.range_min,
             range_max=c.range_max,
         )

@@ -1,0 +1,25 @@
+"""The sections of the configuration, one immutable type each. The defaults are the thesis's values."""
+
+from gt_env.config.sections.fields import Color, section
+from gt_env.config.sections.robot import RobotConfig, TargetConfig
+from gt_env.config.sections.room import BoxObstacle, CylinderObstacle, RoomConfig, UrdfObstacle
+from gt_env.config.sections.simulation import LampConfig, LightConfig, PhysicsConfig, TimingConfig
+from gt_env.config.sections.station import CameraConfig, LrfConfig, PanConfig
+
+__all__ = [
+    "BoxObstacle",
+    "CameraConfig",
+    "Color",
+    "CylinderObstacle",
+    "LampConfig",
+    "LightConfig",
+    "LrfConfig",
+    "PanConfig",
+    "PhysicsConfig",
+    "RobotConfig",
+    "RoomConfig",
+    "TargetConfig",
+    "TimingConfig",
+    "UrdfObstacle",
+    "section",
+]

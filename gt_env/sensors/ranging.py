@@ -1,0 +1,78 @@
+"""The LRF's two backends: closed form, and the physics engine's rays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from estimators.calibration import DEG
+from estimators.poses import Array
+from gt_env.config import EnvConfig
+from gt_env.engine import Engine
+from gt_env.robot_model import CASTER_GAP, CASTER_RADIUS, body_box
+from gt_env.sensors.lrf import Ranging, beam_bearings
+from gt_env.sensors.plane import Disc, Part, PlaneRanging, Rectangle
+
+
+class EngineRanging:
+    """Rays of the physics engine, to bodies of any shape; its world stands at one instant."""
+
+    def __init__(self, engine: Engine, origin: tuple[float, float, float], bearings: Array, reach: float) -> None:
+        self._engine = engine
+        self._origin = origin
+        self._bearings = bearings
+        self._reach = reach
+
+    def cast(self, x: float, y: float, yaw: float) -> Array:
+        """See `Ranging`; the engine knows where the robot is."""
+        return self._engine.cast(self._origin, self._bearings, self._reach)
+
+    def cast_swept(self, poses: Array) -> Array:
+        """Not to be had: the configuration refuses to sweep with this backend."""
+        raise AssertionError("the configuration refuses lrf.sweep_time with lrf.backend = 'bullet'")
+
+
+def make_ranging(config: EnvConfig, engine: Engine) -> Ranging:
+    """The backend that the configuration asks for."""
+    c = config.lrf
+    bearings = beam_bearings(c)
+    if c.backend == "bullet":
+        return EngineRanging(engine, (*c.position, c.height), bearings, c.range_max)
+    return PlaneRanging(
+        room=config.room.without_obstacles(),
+        walls_cross=config.room.wall_height > c.height,
+        fixed=tuple(_obstacle_parts(config)),
+        moving=tuple(_robot_parts(config)),
+        origin=c.position,
+        bearings=bearings,
+    )
+
+
+def _obstacle_parts(config: EnvConfig) -> Iterator[Part]:
+    for obstacle in config.room.obstacles:
+        if obstacle.shape == "urdf" or obstacle.height <= config.lrf.height:
+            continue
+        x, y = obstacle.position
+        if obstacle.shape == "cylinder":
+            yield Disc(x=x, y=y, radius=obstacle.radius)
+        else:
+            length, width, _ = obstacle.size
+            yield Rectangle(x=x, y=y, half_x=0.5 * length, half_y=0.5 * width, yaw=obstacle.yaw_deg * DEG)
+
+
+def _robot_parts(config: EnvConfig) -> Iterator[Part]:
+    """What of robot and target crosses the scanning plane."""
+    robot, target, z = config.robot, config.target, config.lrf.height
+    if target.z_min < z < target.z_max:
+        yield Disc(x=target.mount[0], y=target.mount[1], radius=target.radius)
+    (length, width, height), (_, _, middle) = body_box(robot, target)
+    if abs(z - middle) < 0.5 * height:
+        yield Rectangle(x=0.0, y=0.0, half_x=0.5 * length, half_y=0.5 * width)
+    half = robot.wheel_radius**2 - (z - robot.wheel_radius) ** 2
+    for side in (1, -1):
+        if half > 0:
+            y = side * 0.5 * robot.track
+            yield Rectangle(x=0.0, y=y, half_x=half**0.5, half_y=0.5 * robot.wheel_width)
+        low = z - CASTER_RADIUS - CASTER_GAP
+        if abs(low) < CASTER_RADIUS:
+            x = side * (0.5 * robot.length - 1.5 * CASTER_RADIUS)
+            yield Disc(x=x, y=0.0, radius=(CASTER_RADIUS**2 - low**2) ** 0.5)
