@@ -125,10 +125,13 @@ class ArenaEnv(gym.Env[Observation, Array]):
         if self.render_mode is None:
             gym.logger.warn("render() needs a render_mode: gymnasium.make(..., render_mode='rgb_array')")
             return None
+        return self._picture()
+
+    def _picture(self, wait: bool = True) -> NDArray[np.uint8] | None:
         if self._overview is None:
             window = self.render_mode == "human"
             self._overview = Overview(self._world, self.believed_calibration, window)
-        return self._overview.draw(self._estimates)
+        return self._overview.draw(self._estimates, wait)
 
     def close(self) -> None:
         """Disconnect from the engine and close the window."""
@@ -149,8 +152,8 @@ class ArenaEnv(gym.Env[Observation, Array]):
     def show_estimate(self, name: str, estimate: PoseEstimate) -> None:
         """Have an estimate drawn in the rendered pictures; wrappers call it after every step."""
         self._estimates[name] = estimate
-        if self.render_mode == "human" and self._overview is not None:
-            self.render()
+        if self.render_mode == "human":
+            self._picture(wait=False)
 
     def _show(self) -> None:
         if self.render_mode == "human":

@@ -126,7 +126,8 @@ class ThesisLocalizer:
 
     def observe(self, scan: LaserScan) -> None:
         """Take one scan."""
-        x, y = target_position(scan.ranges, scan.bearings, self.zone(scan), self._radius)
+        zone = np.minimum(self.zone(scan), scan.range_max)  # no return is no point
+        x, y = target_position(scan.ranges, scan.bearings, zone, self._radius)
         in_room = self._lrf @ Pose2(x=x, y=y)
         self._average.hold((in_room.x, in_room.y), scan.stamp)
 

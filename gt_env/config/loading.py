@@ -111,6 +111,9 @@ def _read_toml(content: bytes, origin: str) -> dict[str, Any]:
 
 
 def _build(values: dict[str, Any], origin: str) -> EnvConfig:
+    if isinstance(values.get("belief"), Mapping) and values["belief"]:
+        _build({**values, "belief": {}}, origin)  # what is left to complain about is the belief's
+        origin = f"{origin}: belief"
     try:
         return EnvConfig(**values)
     except ConfigError as error:

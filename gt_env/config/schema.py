@@ -114,6 +114,9 @@ def _problems(c: EnvConfig) -> Iterator[str]:
             f"lrf.height = {c.lrf.height}: must be between target.z_min = {c.target.z_min} and target.z_max = "
             f"{c.target.z_max}, else the LRF does not see the target"
         )
+    if not c.light.lamps:
+        yield "light.lamps = []: must hold at least one lamp; it may have intensity 0"
+    yield from _robot_problems(c)
     yield from _lrf_problems(c)
     yield from _room_problems(c)
 
@@ -132,6 +135,19 @@ def _lrf_problems(c: EnvConfig) -> Iterator[str]:
                 f"room.obstacles.{i} = {obstacle.file!r}: lrf.backend = 'closed_form' cannot range a URDF: use "
                 f"lrf.backend = 'bullet', or an obstacle of shape 'box' or 'cylinder'"
             )
+
+
+def _robot_problems(c: EnvConfig) -> Iterator[str]:
+    """What would give the body a negative size."""
+    if c.robot.track <= c.robot.wheel_width + 0.004:
+        yield (
+            f"robot.track = {c.robot.track}: must be above robot.wheel_width = {c.robot.wheel_width} and 4 mm of air"
+        )
+    if c.target.z_min <= c.robot.ground_clearance:
+        yield (
+            f"target.z_min = {c.target.z_min}: must be above robot.ground_clearance = {c.robot.ground_clearance}, "
+            f"the target stands on the robot's body"
+        )
 
 
 def _timing_problems(c: EnvConfig) -> Iterator[str]:

@@ -49,8 +49,13 @@ class Overview:
         """Remember the present for trails and charts."""
         self._dashboard.record(self._world.time, self._true_pose(), estimates)
 
-    def draw(self, estimates: Mapping[str, PoseEstimate]) -> NDArray[np.uint8] | None:
-        """Draw the present; returns the picture unless it goes to a window."""
+    def draw(self, estimates: Mapping[str, PoseEstimate], wait: bool = True) -> NDArray[np.uint8] | None:
+        """Draw the present; returns the picture unless it goes to a window.
+
+        Args:
+            estimates: What is said of the robot's pose, by name.
+            wait: Whether a window keeps to the pace of real time, once per step.
+        """
         world, c = self._world, self._world.config
         self.record(estimates)
         frame = self._dashboard.draw(
@@ -65,7 +70,7 @@ class Overview:
         )
         if self.window is None:
             return frame
-        self.window.show(frame)
+        self.window.show(frame, wait=wait)
         return None
 
     def close(self) -> None:
@@ -91,7 +96,7 @@ class Overview:
         low_x, low_y, high_x, high_y = self._world.room.bounds
         middle = np.array([0.5 * (low_x + high_x), 0.5 * (low_y + high_y), 0.0])
         reach = 0.5 * float(np.hypot(high_x - low_x, high_y - low_y))
-        eye = middle + 1.75 * reach * np.array([0.12, -0.62, 0.78])
+        eye = middle + 2.3 * reach * np.array([0.1, -0.7, 0.7])
         width, height = Dashboard.scene_size
         return View(
             eye=(float(eye[0]), float(eye[1]), float(eye[2])),

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import field
-from typing import Annotated
-
-from pydantic import Field
 
 from gt_env.config.sections.fields import Color, Flag, NotNegative, Positive, Real, Whole, section
 
@@ -37,7 +34,7 @@ class LightConfig:
     """
 
     ambient: NotNegative = 0.60
-    lamps: Annotated[tuple[LampConfig, ...], Field(min_length=1)] = field(default_factory=lambda: (LampConfig(),))
+    lamps: tuple[LampConfig, ...] = field(default_factory=lambda: (LampConfig(),))
     shadow: Flag = False
     backdrop_color: Color = (70, 100, 150)
 

@@ -1,0 +1,103 @@
+"""`gt-env play`: drive by hand, in a window or in the terminal."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Any
+
+import gymnasium as gym
+import typer
+from rich.console import Console
+
+from benchmarks.commands.options import ConfigOption, OutOption, SeedOption, SetOption, configuration
+from benchmarks.output import check_writable
+from benchmarks.play.session import PlaySession
+from benchmarks.play.terminal import TerminalError, play_in_terminal, terminal_available
+from benchmarks.play.window import play_in_window
+from benchmarks.rollout import ARENA
+from estimators.protocol import METHODS
+from estimators.wrappers import GroundTruthWrapper
+from gt_env.config import EnvConfig
+from gt_env.render.dashboard import Dashboard
+from gt_env.render.window import Window, WindowError, available, why_unavailable
+
+
+def play(
+    config: ConfigOption = "thesis",
+    overrides: SetOption = None,
+    seed: SeedOption = 0,
+    method: Annotated[
+        str, typer.Option("--method", help=f"Ground-truth method: {', '.join(METHODS)}.")
+    ] = "thesis",
+    out: OutOption = Path("out/play"),
+) -> None:
+    """Drive with the arrow keys and record; in the terminal where there is no display."""
+    settings = configuration(config, overrides)
+    window = _window()
+    try:
+        check_writable(out)
+        session = PlaySession(_arena(settings, method, draws=window is not None), out)
+        _play(session, seed, window)
+    finally:
+        if window is not None:
+            window.close()
+
+
+def _window() -> Window | None:
+    """A window, or None where a terminal must do.
+
+    Raises:
+        TerminalError: If there is neither.
+        WindowError: If the display refuses the window and there is no terminal.
+    """
+    if available():
+        try:
+            return Window("gt-env play", Dashboard.size, fps=30.0)
+        except WindowError:
+            if not terminal_available():
+                raise
+    if not terminal_available():
+        raise TerminalError(
+            f"play needs a terminal or a window; there is no terminal here, and {why_unavailable()}"
+        )
+    return None
+
+
+def _arena(config: EnvConfig, method: str, draws: bool) -> gym.Env[Any, Any]:
+    render_mode = "rgb_array" if draws else None
+    env: gym.Env[Any, Any] = gym.make(ARENA, config=config, render_mode=render_mode, disable_env_checker=True)
+    return GroundTruthWrapper(env, method=method)
+
+
+def _play(session: PlaySession, seed: int, window: Window | None) -> None:
+    """Play, and say afterwards what became of the recordings, however it ended."""
+    ended = "gt-env: "
+    interrupted = False
+    try:
+        with _hanging_up_interrupts():
+            session.start(seed)
+            if window is None:
+                play_in_terminal(session)
+            else:
+                play_in_window(session, window)
+    except KeyboardInterrupt:
+        interrupted, ended = True, "gt-env: interrupted: "
+    finally:
+        Console(stderr=True, highlight=False, soft_wrap=True).print(ended + session.close(), markup=False)
+    if interrupted:
+        raise typer.Exit(130)
+
+
+@contextmanager
+def _hanging_up_interrupts() -> Iterator[None]:
+    """Treat a closed terminal and a polite kill as Ctrl-C, so that nothing half-written stays behind."""
+    names = [n for n in ("SIGTERM", "SIGHUP") if hasattr(signal, n)]
+    before = {n: signal.signal(getattr(signal, n), signal.default_int_handler) for n in names}
+    try:
+        yield
+    finally:
+        for name, handler in before.items():
+            signal.signal(getattr(signal, name), handler)
