@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
+from functools import wraps
+from typing import Any
 
 import typer
 from rich.console import Console
@@ -20,21 +23,41 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
-app.command()(validate)
-app.command()(replay)
-app.command()(play)
+Command = Callable[..., None]
+
+
+class Interrupted(GtEnvError):
+    """Ctrl-C while a command was at work."""
+
+
+def _interruptible(command: Command) -> Command:
+    """The command, with Ctrl-C answered by a message: outputs are written in one go, at the very end."""
+
+    @wraps(command)
+    def run(*args: Any, **kwargs: Any) -> None:
+        try:
+            command(*args, **kwargs)
+        except KeyboardInterrupt:
+            raise Interrupted("interrupted: nothing was written") from None
+
+    return run
+
+
+app.command()(_interruptible(validate))
+app.command()(_interruptible(replay))
+app.command()(play)  # it has recordings to save, and says itself what became of them
 
 
 def main() -> None:
     """Run the command line; an error of the domain is one line and exit status 1."""
     try:
         app()
+    except Interrupted as error:
+        _fail(str(error), 130)
     except GtEnvError as error:
         _fail(str(error), 1)
     except OSError as error:
         _fail(f"{error.filename or 'output'}: {error.strerror or error}", 1)
-    except KeyboardInterrupt:
-        _fail("interrupted: nothing was written", 130)
 
 
 def _fail(message: str, status: int) -> None:

@@ -43,6 +43,11 @@ class CameraCalibration:
         fov: Vertical field of view.
         width: Columns of a frame [px].
         height: Rows of a frame [px].
+        distortion: Up to two coefficients k1, k2 of Brown's radial model, as OpenCV counts them.
+        roll: Turn of the camera about its axis of view; positive turns the picture clockwise.
+        center_px: Principal point u, v [px], where pixel (0, 0) has its middle at (0, 0); None for the middle of
+            the image, ((width - 1) / 2, (height - 1) / 2). A renderer that samples pixels at their corners has
+            its own.
     """
 
     position: tuple[float, float, float] = (0.0, 0.10, 0.165)
@@ -50,6 +55,9 @@ class CameraCalibration:
     fov: float = 29.6 * DEG
     width: int = 320
     height: int = 240
+    distortion: tuple[float, ...] = ()
+    roll: float = 0.0
+    center_px: tuple[float, float] | None = None
 
     @property
     def focal(self) -> float:

@@ -8,9 +8,9 @@ estimators can be handed the same one.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import Any, Final
+from collections.abc import Callable, Sequence
+from dataclasses import FrozenInstanceError, dataclass, field
+from typing import Any, Final, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,9 +38,11 @@ def _freeze(message: object, name: str, dtype: Any, ndim: int) -> None:
     object.__setattr__(message, name, array)
 
 
-def _check_stamp(message: Message) -> None:
-    if not math.isfinite(message.stamp):
-        raise MeasurementError(f"{type(message).__name__}.stamp must be finite, got {message.stamp}")
+def _check_finite(message: object, *names: str) -> None:
+    for name in names:
+        value = getattr(message, name)
+        if not math.isfinite(value):
+            raise MeasurementError(f"{type(message).__name__}.{name} must be finite, got {value}")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -79,7 +81,7 @@ class LaserScan(Message):
     range_max: float
 
     def __post_init__(self) -> None:
-        _check_stamp(self)
+        _check_finite(self, "stamp", "bearing_min", "bearing_increment", "time_increment")
         _freeze(self, "ranges", np.float32, 1)
         if self.ranges.size == 0:
             raise MeasurementError("LaserScan.ranges must hold at least one beam")
@@ -91,32 +93,75 @@ class LaserScan(Message):
     @property
     def bearings(self) -> Array:
         """Bearings of the beams (N,) [rad]."""
-        return self.bearing_min + self.bearing_increment * np.arange(len(self.ranges))
+        return np.asarray(self.bearing_min + self.bearing_increment * np.arange(len(self.ranges)), float)
 
 
-@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class ImageFrame(Message):
     """One frame of the station's camera and the pan angle that the motor's encoder gave with it.
 
-    Attributes:
-        rgb: (H, W, 3) uint8, row 0 on top.
+    The picture may be handed over as a function that makes it: it is called when somebody looks at `rgb` for
+    the first time, so that nobody pays for frames that nobody reads.
+
+    Args:
+        stamp: [s].
+        rgb: (H, W, 3) uint8, row 0 on top; or a function without arguments that returns it.
         pan: Encoder reading of the pan unit when the frame was taken [rad]; 0 along x, pi/2 along y.
+        source: Which camera took it.
 
     Raises:
-        MeasurementError: If the image is not (H, W, 3).
+        MeasurementError: If the image is not (H, W, 3), or stamp or pan not finite.
     """
 
-    source: str = STATION_CAMERA
-    rgb: NDArray[np.uint8]
-    pan: float
+    __slots__ = ("_pixels", "pan")
 
-    def __post_init__(self) -> None:
-        _check_stamp(self)
-        if np.asarray(self.rgb).dtype != np.uint8:
-            raise MeasurementError(f"ImageFrame.rgb must be uint8, got {np.asarray(self.rgb).dtype}")
-        _freeze(self, "rgb", np.uint8, 3)
-        if self.rgb.shape[2] != 3:
-            raise MeasurementError(f"ImageFrame.rgb must be (H, W, 3), got {self.rgb.shape}")
+    pan: float
+    _pixels: NDArray[np.uint8] | Callable[[], NDArray[np.uint8]]
+
+    def __init__(
+        self,
+        *,
+        stamp: float,
+        rgb: NDArray[np.uint8] | Callable[[], NDArray[np.uint8]],
+        pan: float,
+        source: str = STATION_CAMERA,
+    ) -> None:
+        Message.__init__(self, stamp=stamp, source=source)
+        object.__setattr__(self, "pan", pan)
+        object.__setattr__(self, "_pixels", rgb)
+        _check_finite(self, "stamp", "pan")
+        if not callable(rgb):
+            self._store(rgb)
+
+    @property
+    def rgb(self) -> NDArray[np.uint8]:
+        """The picture (H, W, 3) uint8, read-only."""
+        if callable(self._pixels):
+            self._store(self._pixels())
+        return cast(NDArray[np.uint8], self._pixels)
+
+    def _store(self, rgb: NDArray[np.uint8]) -> None:
+        pixels = np.asarray(rgb)
+        if pixels.dtype != np.uint8:
+            raise MeasurementError(f"ImageFrame.rgb must be uint8, got {pixels.dtype}")
+        if pixels.ndim != 3 or pixels.shape[2] != 3:
+            raise MeasurementError(f"ImageFrame.rgb must be (H, W, 3), got {pixels.shape}")
+        if pixels.flags.writeable:
+            pixels = pixels.copy()
+            pixels.setflags(write=False)
+        object.__setattr__(self, "_pixels", pixels)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise FrozenInstanceError(f"cannot assign to field {name!r}")
+
+    def __repr__(self) -> str:
+        return f"ImageFrame(stamp={self.stamp}, source={self.source!r}, pan={self.pan})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _remade_frame, (self.stamp, self.rgb, self.pan, self.source)
+
+
+def _remade_frame(stamp: float, rgb: NDArray[np.uint8], pan: float, source: str) -> ImageFrame:
+    return ImageFrame(stamp=stamp, rgb=rgb, pan=pan, source=source)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -145,7 +190,7 @@ class TargetSighting(Message):
     marker_colors: NDArray[np.int64]
 
     def __post_init__(self) -> None:
-        _check_stamp(self)
+        _check_finite(self, "stamp", "pan")
         _freeze(self, "marker_columns", np.float64, 1)
         _freeze(self, "marker_colors", np.int64, 1)
         if self.marker_columns.shape != self.marker_colors.shape:
@@ -163,7 +208,7 @@ class WheelOdometry(Message):
     speeds: Array
 
     def __post_init__(self) -> None:
-        _check_stamp(self)
+        _check_finite(self, "stamp")
         _freeze(self, "speeds", np.float64, 1)
 
 
@@ -176,7 +221,7 @@ class ImuSample(Message):
     acceleration: Array = field(default_factory=lambda: np.zeros(2))
 
     def __post_init__(self) -> None:
-        _check_stamp(self)
+        _check_finite(self, "stamp")
         _freeze(self, "acceleration", np.float64, 1)
 
 

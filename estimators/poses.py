@@ -23,8 +23,8 @@ def wrap_angle(angle: float | Array) -> float | Array:
     """Bring an angle [rad] into (-pi, pi]."""
     # Just above pi the remainder rounds up to the whole turn, which would give -pi.
     if isinstance(angle, np.ndarray):
-        wrapped = np.pi - np.mod(np.pi - angle, 2 * np.pi)
-        return np.where(wrapped > -np.pi, wrapped, np.pi)
+        turned = np.pi - np.mod(np.pi - angle, 2 * np.pi)
+        return np.where(turned > -np.pi, turned, np.pi)
     wrapped = math.pi - (math.pi - angle) % (2 * math.pi)
     return wrapped if wrapped > -math.pi else math.pi
 
@@ -80,7 +80,8 @@ class Pose2:
     def apply(self, points: Array) -> Array:
         """Points (..., 2) [m] given in this pose's frame, in the frame that the pose is given in."""
         c, s = math.cos(self.yaw), math.sin(self.yaw)
-        return np.asarray(points, float) @ np.array([[c, s], [-s, c]]) + (self.x, self.y)
+        moved: Array = np.asarray(points, float) @ np.array([[c, s], [-s, c]]) + (self.x, self.y)
+        return moved
 
     def as_array(self) -> Array:
         """A new array (3,): x, y [m], yaw [rad]."""

@@ -60,9 +60,8 @@ class GroundTruthWrapper(
         _refuse_taken_name(env, name)
         self.name = name
         self.method = method
-        self.estimator = ground_truth_estimator(
-            method, calibration if calibration is not None else env.unwrapped.believed_calibration
-        )
+        base: Any = env.unwrapped
+        self.estimator = ground_truth_estimator(method, calibration or base.believed_calibration)
         self.estimate = PoseEstimate.unknown()
 
     def reset(
@@ -101,5 +100,3 @@ def _refuse_taken_name(env: gym.Env[Any, Any], name: str) -> None:
         layer = layer.env
     if not name or name in taken:
         raise ConfigError(f"name = {name!r}: must not be empty or one of {', '.join(sorted(taken))}")
-
-

@@ -9,6 +9,7 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -60,6 +61,11 @@ class Engine:
         self._physics = physics
         self._tick = tick
         self._client: int = self._p.connect(self._p.DIRECT)
+
+    @property
+    def raw(self) -> tuple[Any, int]:
+        """Pybullet itself and this world's client, for benchmarks that compare the facade with plain calls."""
+        return self._p, self._client
 
     def reset(self) -> None:
         """Empty the world. What is then built in the same order behaves the same, bit for bit."""
@@ -128,7 +134,9 @@ class Engine:
         except p.error as error:
             raise ConfigError(f"obstacle {file!r}: must be a URDF file that can be loaded: {error}") from None
 
-    def add_robot(self, urdf: str, x: float, y: float, yaw: float, ground: int, wheels: Sequence[str]) -> Body:
+    def add_robot(
+        self, urdf: str, x: float, y: float, yaw: float, ground: int, wheels: Sequence[str]
+    ) -> Body:
         """A robot whose wheels roll on the ground and whose body slides along everything else.
 
         Args:
@@ -144,7 +152,10 @@ class Engine:
             path = Path(folder) / "robot.urdf"
             path.write_text(urdf)
             flags = p.URDF_USE_IMPLICIT_CYLINDER
-            others = [p.getBodyUniqueId(i, physicsClientId=client) for i in range(p.getNumBodies(physicsClientId=client))]
+            others = [
+                p.getBodyUniqueId(i, physicsClientId=client)
+                for i in range(p.getNumBodies(physicsClientId=client))
+            ]
             number = p.loadURDF(str(path), flags=flags, physicsClientId=client)
         names = {
             p.getJointInfo(number, j, physicsClientId=client)[1].decode(): j
@@ -199,7 +210,8 @@ class Engine:
             lit_at: Point x, y, z [m] whose directions to the lamps hold for the whole picture, since the
                 renderer's lamps are infinitely far away.
         """
-        parts, depth = [], np.empty(0)
+        parts: list[NDArray[np.uint8]] = []
+        depth: NDArray[np.float32] = np.empty(0, np.float32)
         for lamp in light.lamps:
             to_lamp = np.subtract(lamp.position, lit_at)
             rgb, depth = self._render(
@@ -217,7 +229,8 @@ class Engine:
         if len(parts) > 1:
             picture = np.minimum(np.sum(parts, axis=0, dtype=np.uint16), 255).astype(np.uint8)
         # The renderer's own sky is white, which is the target's colour.
-        picture[depth > 1 - 1e-6] = light.backdrop_color
+        sky = cv2.compare(depth, 1 - 1e-6, cv2.CMP_GT)
+        cv2.copyTo(_one_color(view.height, view.width, light.backdrop_color), sky, picture)
         return picture
 
     def _render(self, view: View, **light: Any) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
@@ -313,6 +326,13 @@ class Body:
     def touches(self, other: int) -> bool:
         """Whether it is in contact with another body."""
         return bool(self._p.getContactPoints(self.number, other, physicsClientId=self._client))
+
+
+@lru_cache(maxsize=4)
+def _one_color(height: int, width: int, color: Color) -> NDArray[np.uint8]:
+    picture = np.empty((height, width, 3), np.uint8)
+    picture[:] = color
+    return picture
 
 
 def _import_pybullet() -> Any:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from typing import Any, ClassVar
+from typing import Any
 
 import gymnasium as gym
 import numpy as np
@@ -31,7 +30,7 @@ class ArenaEnv(gym.Env[Observation, Array]):
     There is no task: the reward is 0 and an episode never ends by itself.
 
     ## Action space
-    `Box(-1, 1, (2,), float64)`: speeds of the left and the right wheel over the robot's maximum
+    `Box(-1, 1, (2,), float32)`: speeds of the left and the right wheel over the robot's maximum
     (`robot.max_wheel_speed`, 29.4 rad/s by default), held for one step (`timing.step`, 0.1 s).
 
     ## Observation space
@@ -66,7 +65,7 @@ class ArenaEnv(gym.Env[Observation, Array]):
     v0: first version.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {
+    metadata: dict[str, Any] = {  # noqa: RUF012 - Gymnasium's own declaration
         "render_modes": ["rgb_array", *(["human"] if window_available() else [])],
         "render_fps": 10,
     }
@@ -83,8 +82,10 @@ class ArenaEnv(gym.Env[Observation, Array]):
         self._room = self.config.room.in_station_frame()
         self._ticks = self.config.ticks(self.config.timing.step)
         self._world = World(self.config)
-        self.action_space = spaces.Box(-1.0, 1.0, (self._world.robot.wheels,), np.float64)
-        self.observation_space = spaces.Dict(self._world.spaces())
+        actions: Any = spaces.Box(-1.0, 1.0, (self._world.robot.wheels,), np.float32)
+        observations: Any = spaces.Dict(self._world.spaces())
+        self.action_space = actions
+        self.observation_space = observations
         self._estimates: dict[str, PoseEstimate] = {}
         self._overview: Overview | None = None
 
@@ -179,8 +180,6 @@ class ArenaEnv(gym.Env[Observation, Array]):
     def _checked(self, action: Array) -> Array:
         values = np.asarray(action, dtype=float)
         shape = self.action_space.shape
-        if values.shape != shape or not math.isfinite(values.sum()):
-            raise ConfigError(f"action = {action!r}: must be {shape} finite numbers in [-1, 1]")
-        return np.clip(values, -1.0, 1.0)
-
-
+        if values.shape != shape or not np.isfinite(values).all():
+            raise ConfigError(f"action = {values.tolist()}: must be {shape} finite numbers in [-1, 1]")
+        return np.asarray(np.clip(values, -1.0, 1.0), float)

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from estimators.poses import Array, Pose2
 from gt_env.config import EnvConfig
 from gt_env.engine import Engine
 from gt_env.robot_model import WHEEL_JOINTS, differential_robot
-
 
 INTEGRAL_GAIN = 0.3
 """Share of a wheel's lag that the motors' controller makes up for within one tick."""
@@ -33,31 +30,29 @@ class DifferentialRobot:
     def spawn(self, engine: Engine, pose: Pose2, floor: int) -> None:
         """Put the robot into the world, at rest."""
         self._body = engine.add_robot(self._urdf, pose.x, pose.y, pose.yaw, floor, WHEEL_JOINTS)
-        self._goal = np.zeros(self.wheels)
-        self._speeds = np.zeros(self.wheels)
-        self._angles = np.array(self._body.wheel_angles())
+        self._goal = [0.0] * self.wheels
+        self._speeds = [0.0] * self.wheels
+        self._angles = self._body.wheel_angles()
         self._command()
 
     def drive(self, action: Array) -> None:
         """Set the wheel speeds to drive at, over the maximum (2,): left, right, each in [-1, 1]."""
-        self._goal = self._config.max_wheel_speed * action
+        self._goal = (self._config.max_wheel_speed * action).tolist()
 
     def ramp(self) -> None:
         """Bring the motors one tick nearer to the commanded speeds."""
-        missing = self._goal - self._speeds
-        if not missing.any() and not self._speeds.any():
+        if not any(self._goal) and not any(self._speeds):
             return
+        # Plain numbers: for two wheels, every tick, arrays would take as long as reading their angles.
         most = self._config.max_wheel_acceleration * self._tick
-        self._speeds += np.clip(missing, -most, most)
-        actual = np.array(self._body.wheel_angles())
-        lag = self._angles + self._speeds * self._tick - actual
-        self._angles = actual + np.clip(lag, -INTEGRAL_LIMIT, INTEGRAL_LIMIT)
+        for i, actual in enumerate(self._body.wheel_angles()):
+            self._speeds[i] += _within(self._goal[i] - self._speeds[i], most)
+            lag = self._angles[i] + self._speeds[i] * self._tick - actual
+            self._angles[i] = actual + _within(lag, INTEGRAL_LIMIT)
         self._command()
 
     def _command(self) -> None:
-        self._body.command_wheels(
-            self._angles.tolist(), self._speeds.tolist(), INTEGRAL_GAIN, self._config.stall_torque
-        )
+        self._body.command_wheels(self._angles, self._speeds, INTEGRAL_GAIN, self._config.stall_torque)
 
     def pose(self) -> tuple[float, float, float]:
         """True x, y [m], yaw [rad] of the base."""
@@ -70,3 +65,7 @@ class DifferentialRobot:
     def touches(self, bodies: list[int]) -> bool:
         """Whether it is in contact with one of these bodies."""
         return any(self._body.touches(b) for b in bodies)
+
+
+def _within(value: float, limit: float) -> float:
+    return min(max(value, -limit), limit)

@@ -60,7 +60,9 @@ def _add_target(link: ET.Element, target: TargetConfig) -> None:
     _shape(link, "both", cylinder, (x, y, z), color=target.color, name="target")
     reach = target.radius + target.marker_protrusion - 0.5 * MARKER_DEPTH
     marker = _box((MARKER_DEPTH, target.marker_width, target.marker_height))
-    for index, (angle_deg, color) in enumerate(zip(target.marker_angles_deg, target.marker_colors, strict=True)):
+    for index, (angle_deg, color) in enumerate(
+        zip(target.marker_angles_deg, target.marker_colors, strict=True)
+    ):
         angle = (angle_deg + target.mount_yaw_deg) * DEG
         place = (x + reach * math.cos(angle), y + reach * math.sin(angle), z)
         _shape(link, "visual", marker, place, (0, 0, angle), color=color, name=f"marker_{index}")

@@ -76,9 +76,7 @@ def _build_ground(engine: Engine, config: EnvConfig, room: Room) -> None:
 
 def _build_station(engine: Engine, config: EnvConfig) -> None:
     """LRF and the camera's post, to be seen in the overview; no ray meets them."""
-    engine.add_cylinder(
-        [0, 0, 0.5 * config.lrf.height], 0.02, config.lrf.height, STATION_COLOR, solid=False
-    )
+    engine.add_cylinder([0, 0, 0.5 * config.lrf.height], 0.02, config.lrf.height, STATION_COLOR, solid=False)
     x, y, z = config.camera.position
     post = max(z - 0.03, 0.01)
     engine.add_cylinder([x, y, 0.5 * post], 0.02, post, STATION_COLOR, solid=False)

@@ -21,7 +21,6 @@ from gt_env.sensors.lrf import LaserRangefinder, RobotPose
 from gt_env.sensors.pan_unit import PanUnit
 from gt_env.sensors.ranging import make_ranging
 
-
 STILL = 1e-5
 """A movement that no picture shows [m, rad]."""
 
@@ -176,7 +175,9 @@ class World:
         # A scene at rest is not rendered again; what it may have moved is below a hundredth of a pixel.
         state = np.array([direction, *self.robot.pose(), *self.robot.wheel_angles()])
         if self._picture is None or np.abs(state - self._pictured).max() > STILL:
-            self._picture = self.engine.picture(self._camera_view(direction), self.config.light, self.target_middle())
+            self._picture = self.engine.picture(
+                self._camera_view(direction), self.config.light, self.target_middle()
+            )
             self._pictured = state
         return self._picture.copy()
 
@@ -196,7 +197,7 @@ class World:
     def target_middle(self) -> tuple[float, float, float]:
         """x, y, z of the target's true middle [m]."""
         x, y, yaw = self.robot.pose()
-        target = Pose2(x=x, y=y, yaw=yaw) @ Pose2(x=self.config.target.mount[0], y=self.config.target.mount[1])
+        target = Pose2(x=x, y=y, yaw=yaw) @ Pose2(
+            x=self.config.target.mount[0], y=self.config.target.mount[1]
+        )
         return target.x, target.y, 0.5 * (self.config.target.z_min + self.config.target.z_max)
-
-

@@ -19,7 +19,7 @@ BLACK = "#000000"
 def frame_figure(frame: ImageFrame, target: TargetGeometry) -> Figure:
     """The whole frame, and beside it the target enlarged with edges, lines, fixed point and marker."""
     height, width = frame.rgb.shape[:2]
-    figure, (whole, detail) = new_figure(WIDTH, 2.75, columns=2)
+    figure, (whole, detail) = new_figure(WIDTH, 2.6, columns=2)
     whole.imshow(frame.rgb, interpolation="nearest")
     detail.imshow(frame.rgb, interpolation="nearest")
     for ax in (whole, detail):

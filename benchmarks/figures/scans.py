@@ -8,7 +8,15 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from benchmarks.figures.map import draw_pose, draw_room, draw_scan, draw_station, draw_zone, polar_points
+from benchmarks.figures.map import (
+    ZONE,
+    draw_pose,
+    draw_room,
+    draw_scan,
+    draw_station,
+    draw_zone,
+    polar_points,
+)
 from benchmarks.figures.style import ESTIMATED, REAL, WIDTH, new_figure
 from estimators.calibration import DEG, Calibration
 from estimators.messages import LaserScan
@@ -59,6 +67,7 @@ def array_figure(scan: LaserScan, known: Calibration) -> Figure:
     figure, (ax, near) = new_figure(WIDTH, 2.4, columns=2, width_ratios=[3, 2])
     kept = np.where(scan.ranges < zone_of(scan, known), scan.ranges, 0.0)
     draw_array(ax, kept, scan, known)
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0))
     run = find_run(kept > 0)
     draw_array(near, kept, scan, known)
     if run is not None:
@@ -80,7 +89,7 @@ def draw_array(ax: Axes, kept: Array, scan: LaserScan, known: Calibration) -> No
     """Ranges over their index, 0 where a beam was discarded."""
     ax.vlines(np.flatnonzero(kept), 0, kept[kept > 0], color=ESTIMATED[0], lw=0.5, alpha=0.4)
     ax.plot(kept, ".", ms=3, color=ESTIMATED[0])
-    ax.plot(zone_of(scan, known), color="#16854a", lw=0.9, label="acceptance zone")
+    ax.plot(zone_of(scan, known), color=ZONE, lw=1.0, ls="--", label="acceptance zone")
     ax.set_xlim(0, len(kept) - 1)
     ax.set_ylim(bottom=0)
     ax.set_xlabel("index of the beam")

@@ -18,6 +18,9 @@ AVERAGE_TICKS = 5
 CONTROL_PERIOD = 0.05
 """Control tick of the author's program [s]; the average runs on these, not on scans, so it spans 2.5 scans."""
 
+LEAST_MARGIN = 1e-3
+"""Of the acceptance zone [m]: without it, rounding decides whether a noise-free beam on a wall is accepted."""
+
 
 def find_run(accepted: NDArray[np.bool_]) -> tuple[int, int] | None:
     """The first run of two or more accepted beams (4.1.2, the transition rule).
@@ -115,7 +118,7 @@ class ThesisLocalizer:
         self._room = calibration.room
         self._lrf = calibration.lrf.pose
         self._radius = calibration.target.radius
-        self._margin = k_sigma * calibration.lrf.noise_sigma
+        self._margin = max(k_sigma * calibration.lrf.noise_sigma, LEAST_MARGIN)
         self._average = TickedAverage()
         self._zone_of: tuple[int, float, float] | None = None
         self._zone = np.empty(0)

@@ -139,7 +139,7 @@ def _explain(error: ValidationError) -> list[str]:
 
 
 def _known_keys(section: tuple[int | str, ...]) -> str:
-    fields = EnvConfig.__dataclass_fields__
+    fields: dict[str, Any] = vars(EnvConfig)["__dataclass_fields__"]
     if not section:
         return f": must be one of {', '.join(fields)}"
     factory: Any = fields[str(section[0])].default_factory if section[0] in fields else None

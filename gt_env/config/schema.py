@@ -59,7 +59,7 @@ class EnvConfig:
 
     def as_dict(self) -> dict[str, Any]:
         """All values as plain mappings, tuples and numbers; `load_config` takes it back."""
-        return asdict(self)
+        return _as_dict(self)
 
     def believed(self) -> EnvConfig:
         """The configuration as the estimators believe it.
@@ -70,7 +70,7 @@ class EnvConfig:
         for name in self.belief:
             if name not in BELIEF_SECTIONS:
                 raise ConfigError(f"belief.{name}: must be one of {', '.join(BELIEF_SECTIONS)}")
-        values = merge(asdict(self), self.belief)
+        values = merge(self.as_dict(), self.belief)
         values["belief"] = {}
         return EnvConfig(**values)
 
@@ -91,6 +91,12 @@ class EnvConfig:
     def ticks(self, period: float) -> int:
         """How many physics ticks a period [s] takes; they divide it, or this configuration would not exist."""
         return round(period / self.timing.tick)
+
+
+def _as_dict(config: Any) -> dict[str, Any]:
+    # Pydantic's dataclasses are dataclasses, though not to the type checker.
+    values: dict[str, Any] = asdict(config)
+    return values
 
 
 def _problems(c: EnvConfig) -> Iterator[str]:

@@ -30,7 +30,7 @@ class Ranging(Protocol):
 def beam_bearings(config: LrfConfig) -> Array:
     """Directions (N,) of the beams in the station's frame [rad]."""
     degrees = config.bearing_min_deg + config.bearing_increment_deg * np.arange(config.beams)
-    return DEG * (config.yaw_deg + degrees)
+    return np.asarray(DEG * (config.yaw_deg + degrees), float)
 
 
 class LaserRangefinder:
@@ -84,7 +84,9 @@ class LaserRangefinder:
             self._track.append((stamp, *pose))
             start = self._track[0][0]
             if stamp - start >= self._config.sweep_time - 1e-9:
-                scan = self._deliver(start, self._ranging.cast_swept(self._poses_at_beams()), self._time_increment)
+                scan = self._deliver(
+                    start, self._ranging.cast_swept(self._poses_at_beams()), self._time_increment
+                )
                 self._track.clear()
         if due:
             self._track = [(stamp, *pose)]

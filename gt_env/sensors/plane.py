@@ -16,18 +16,25 @@ import numpy as np
 from estimators.poses import Array
 from estimators.room import Room
 
+Numbers = Array | float
+
 
 class Part(Protocol):
     """A cross-section; its place is given in the frame of the body that it belongs to."""
 
-    x: float
-    y: float
+    @property
+    def x(self) -> float:
+        """Of its middle [m]."""
+
+    @property
+    def y(self) -> float:
+        """Of its middle [m]."""
 
     @property
     def reach(self) -> float:
         """Radius of the circle around `x`, `y` that encloses it [m]."""
 
-    def ranges(self, dx: Array, dy: Array, turn: float | Array, cos: Array, sin: Array) -> Array:
+    def ranges(self, dx: Numbers, dy: Numbers, turn: Numbers, cos: Array, sin: Array) -> Array:
         """Ranges (M,) [m] along rays to the part, inf where one misses.
 
         Args:
@@ -55,7 +62,7 @@ class Disc:
         """Its radius [m]."""
         return self.radius
 
-    def ranges(self, dx: Array, dy: Array, turn: float | Array, cos: Array, sin: Array) -> Array:
+    def ranges(self, dx: Numbers, dy: Numbers, turn: Numbers, cos: Array, sin: Array) -> Array:
         """See `Part`."""
         along = dx * cos + dy * sin
         across = dx * sin - dy * cos
@@ -91,7 +98,7 @@ class Rectangle:
         """Half its diagonal [m]."""
         return math.hypot(self.half_x, self.half_y)
 
-    def ranges(self, dx: Array, dy: Array, turn: float | Array, cos: Array, sin: Array) -> Array:
+    def ranges(self, dx: Numbers, dy: Numbers, turn: Numbers, cos: Array, sin: Array) -> Array:
         """See `Part`; the slab method."""
         c, s = np.cos(turn + self.yaw), np.sin(turn + self.yaw)
         low, high = np.zeros(len(cos)), np.full(len(cos), np.inf)
@@ -107,7 +114,7 @@ class Rectangle:
 
     def ranges_towards(self, dx: float, dy: float, turn: float, cos: Array, sin: Array) -> Array:
         """See `Part`."""
-        return self.ranges(np.float64(dx), np.float64(dy), turn, cos, sin)
+        return self.ranges(dx, dy, turn, cos, sin)
 
 
 class PlaneRanging:
@@ -138,10 +145,8 @@ class PlaneRanging:
         self._moving = tuple(moving)
         self._still = room.cast(origin, bearings)[0] if walls_cross else np.full(len(bearings), np.inf)
         for part in fixed:
-            dx, dy = np.float64(part.x - self._x), np.float64(part.y - self._y)
-            np.minimum(
-                self._still, part.ranges(dx, dy, 0.0, self._cos, self._sin), out=self._still
-            )
+            dx, dy = part.x - self._x, part.y - self._y
+            np.minimum(self._still, part.ranges(dx, dy, 0.0, self._cos, self._sin), out=self._still)
 
     def cast(self, x: float, y: float, yaw: float) -> Array:
         """Ranges (N,) [m] with the moving body at a pose [m, m, rad]; inf where nothing is met."""

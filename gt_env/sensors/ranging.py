@@ -16,7 +16,9 @@ from gt_env.sensors.plane import Disc, Part, PlaneRanging, Rectangle
 class EngineRanging:
     """Rays of the physics engine, to bodies of any shape; its world stands at one instant."""
 
-    def __init__(self, engine: Engine, origin: tuple[float, float, float], bearings: Array, reach: float) -> None:
+    def __init__(
+        self, engine: Engine, origin: tuple[float, float, float], bearings: Array, reach: float
+    ) -> None:
         self._engine = engine
         self._origin = origin
         self._bearings = bearings

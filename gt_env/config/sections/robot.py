@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import field
+
 from estimators.calibration import DEG, TargetGeometry
 from estimators.poses import Pose2
 from gt_env.config.sections.fields import Color, NotNegative, Point, Positive, Real, Whole, section
@@ -73,7 +75,7 @@ class TargetConfig:
     mass: Positive = 0.3
     color: Color = (255, 255, 255)
     marker_angles_deg: tuple[Real, ...] = (-90.0, -30.0, 30.0, 90.0, 150.0, 210.0)
-    marker_colors: tuple[Color, ...] = TargetGeometry.__dataclass_fields__["marker_colors"].default
+    marker_colors: tuple[Color, ...] = field(default_factory=lambda: TargetGeometry().marker_colors)
     marker_width: Positive = 0.010
     marker_height: Positive = 0.035
     marker_protrusion: Positive = 0.0015

@@ -63,8 +63,9 @@ class CylinderObstacle:
     def footprint(self) -> Array:
         """A polygon (64, 2) around it [m]; its corners stand out by a thousandth of the radius."""
         angles = 2 * np.pi * np.arange(64) / 64
-        around = self.radius / np.cos(np.pi / 64) * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-        return around + self.position
+        around: Array = self.radius / np.cos(np.pi / 64) * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        around += self.position
+        return around
 
 
 @section

@@ -1,0 +1,88 @@
+"""`gt-env validate`: the thesis's validation, repeated and put beside its published numbers."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from benchmarks.commands.options import (
+    ConfigOption,
+    JobsOption,
+    OutOption,
+    QuickOption,
+    SeedOption,
+    SetOption,
+    configuration,
+)
+from benchmarks.output import check_writable, staged
+from estimators.errors import ConfigError, MissingExtraError
+from estimators.protocol import METHODS
+
+MethodOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--method", metavar="NAME", help=f"A ground-truth method ({', '.join(METHODS)}); repeatable."
+    ),
+]
+NoFiguresOption = Annotated[
+    bool, typer.Option("--no-figures", help="Write report.json only; needs no plotting packages.")
+]
+
+
+def validate(
+    config: ConfigOption = "thesis",
+    overrides: SetOption = None,
+    seed: SeedOption = 0,
+    quick: QuickOption = False,
+    jobs: JobsOption = 2,
+    method: MethodOption = None,
+    out: OutOption = Path("out/validate"),
+    no_figures: NoFiguresOption = False,
+) -> None:
+    """Repeat the thesis's validation: seven static points and three drives, beside its published numbers."""
+    from benchmarks.report.scores import score_validation
+    from benchmarks.report.setup import describe, validate_command
+    from benchmarks.report.tables import all_tables
+    from benchmarks.report.terminal import rich_table
+    from benchmarks.report.write import write_numbers, write_page
+    from benchmarks.rollout import watched_arena
+    from benchmarks.validation import plan_validation, run_validation
+
+    methods, settings = _methods(method), configuration(config, overrides)
+    if not no_figures:
+        _require_report_extra()
+    check_writable(out)
+    plan = plan_validation(settings, methods, seed=seed, quick=quick)
+    watched_arena(settings, methods).close()  # what is wrong with the set-up is said here, not by a worker
+    console = Console()
+    validation = run_validation(plan, jobs=jobs, console=console)
+    scores = score_validation(validation)
+    setup = describe(plan, validate_command(config, overrides or [], seed, methods, quick=quick))
+    tables = all_tables(scores)
+    with staged(out) as folder:
+        report = write_numbers(folder, scores, setup)
+        if not no_figures:
+            report = write_page(folder, validation, scores, tables, setup, console)
+    for table in tables:
+        console.print(rich_table(table))
+    console.print(str(out / report), soft_wrap=True, highlight=False, markup=False)
+
+
+def _methods(names: list[str] | None) -> tuple[str, ...]:
+    """What was asked for, each once, in order; without a wish the thesis's own."""
+    for name in names or ():
+        if name not in METHODS:
+            raise ConfigError(f"--method {name}: must be one of {', '.join(METHODS)}")
+    return tuple(dict.fromkeys(names or ["thesis"]))
+
+
+def _require_report_extra() -> None:
+    """Refuse before anything is simulated what would fail when figures are drawn."""
+    for package in ("matplotlib", "jinja2"):
+        if find_spec(package) is None:
+            what = "the report with its figures (--no-figures goes without)"
+            raise MissingExtraError(what, package, "report")

@@ -1,0 +1,219 @@
+"""Scripted driving: wheel commands over time, as the author gave them by keyboard.
+
+A script knows nothing but time. It is written for the thesis's room and shrunk for a smaller one; the
+kinematics of an ideal robot say beforehand how near to a wall it would come.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from estimators.calibration import DEG
+from estimators.errors import ConfigError
+from estimators.poses import Array, Pose2
+from estimators.room import Room
+from gt_env.config import EnvConfig
+from gt_env.config.sections import RoomConfig
+
+SPEED = 0.45
+"""Forward speed [m/s]: the author's 10 rad/s on wheels of 0.045 m."""
+TURN_RATE = 2.0
+"""Turning on the spot [rad/s]."""
+PAUSE = 0.3
+"""Between driving and turning on the spot [s]: the wheels come to rest first."""
+MARGIN = 0.40
+"""Smallest distance of the base to a wall on an ideal drive [m]: half a robot, and what slip may add."""
+
+Segment = tuple[float, float, float]
+"""Duration [s], speed of the left and of the right wheel [rad/s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drive:
+    """A start pose and what follows, in lengths of the thesis's room.
+
+    Attributes:
+        start: Pose in the thesis's room.
+        moves: Forward [m] and turn [rad] of each move; zero and zero is a stop of one second.
+    """
+
+    start: Pose2
+    moves: tuple[tuple[float, float], ...]
+
+
+STOP = (0.0, 0.0)
+LEFT = (0.0, 90 * DEG)
+
+
+def _arc(angle_deg: float, radius: float) -> tuple[float, float]:
+    return abs(angle_deg) * DEG * radius, angle_deg * DEG
+
+
+def _leg(length: float, turn: tuple[float, float]) -> tuple[tuple[float, float], ...]:
+    return (length, 0.0), STOP, turn
+
+
+_MIDDLE = Pose2(x=0.0, y=2.0)
+
+DRIVES: dict[str, Drive] = {
+    # 5.2.1: over the room along straight lines, standing still at every corner.
+    "path": Drive(
+        start=_MIDDLE,
+        moves=(
+            STOP,
+            *_leg(2.8, LEFT),
+            *_leg(1.1, LEFT),
+            *_leg(5.6, LEFT),
+            *_leg(2.2, LEFT),
+            *_leg(4.4, LEFT),
+            *_leg(1.1, LEFT),
+            (1.6, 0.0),
+            STOP,
+        ),
+    ),
+    # 5.2.2, figure 5.12: on the spot, counter-clockwise and clockwise.
+    "spin": Drive(start=_MIDDLE, moves=(STOP, (0.0, 720 * DEG), STOP, (0.0, -720 * DEG), STOP)),
+    # 5.2.2, figure 5.13: moving and rotating around the map. Arcs begin and end on straights: from rest the
+    # outer wheel takes longer to come up to speed, which would turn the robot by several degrees.
+    "tour": Drive(
+        start=_MIDDLE,
+        moves=(
+            STOP,
+            (1.4, 0.0),
+            _arc(-270, 0.6),
+            (1.0, 0.0),
+            _arc(90, 0.7),
+            (1.6, 0.0),
+            _arc(180, 0.7),
+            (0.2, 0.0),
+            (0.0, 360 * DEG),
+            (0.2, 0.0),
+            _arc(-180, 0.4),
+            (1.4, 0.0),
+            _arc(-90, 0.7),
+            (0.6, 0.0),
+            (0.0, -450 * DEG),
+            (4.4, 0.0),
+            _arc(90, 0.6),
+            _arc(-90, 0.4),
+            (0.4, 0.0),
+            _arc(-90, 0.6),
+            (0.8, 0.0),
+            (0.0, 360 * DEG),
+            (0.2, 0.0),
+            _arc(-90, 0.6),
+            (1.4, 0.0),
+            STOP,
+        ),
+    ),
+}
+"""The three experiments of 5.2 by name."""
+
+
+def script(name: str, config: EnvConfig) -> list[Segment]:
+    """Wheel speeds over time for one of `DRIVES`.
+
+    Raises:
+        ConfigError: If the robot would come too near to a wall, or its wheels cannot turn as fast.
+    """
+    drive, scale = DRIVES[name], room_scale(config)
+    robot, step = config.robot, config.timing.step
+    segments = _segments([(forward * scale, turn) for forward, turn in drive.moves], config)
+    fastest = max(max(abs(left), abs(right)) for _, left, right in segments)
+    if fastest > robot.max_wheel_speed:
+        raise ConfigError(
+            f"robot.max_wheel_speed = {robot.max_wheel_speed}: must be at least {fastest:.1f} rad/s for the "
+            f"drive {name!r}"
+        )
+    room = config.room.in_station_frame()
+    driven = ideal_poses(start_pose(name, config), segments, config, period=step)
+    nearest = min(room.clearance((x, y)) for x, y, _ in driven)
+    if nearest < MARGIN:
+        raise ConfigError(
+            f"room.vertices: the drive {name!r}, shrunk by {scale:.2f}, comes as near as {nearest:.2f} m to "
+            f"a wall or leaves the room; it needs {MARGIN} m"
+        )
+    return segments
+
+
+def start_pose(name: str, config: EnvConfig) -> Pose2:
+    """Where a drive starts in this room."""
+    start = DRIVES[name].start
+    x, y = into_room((start.x, start.y), config)
+    return Pose2(x=x, y=y, yaw=start.yaw)
+
+
+def actions(segments: list[Segment], config: EnvConfig, step: float) -> Array:
+    """The script as actions (steps, 2), one per environment step of `step` seconds."""
+    repeats = [round(duration / step) for duration, _, _ in segments]
+    speeds = np.array([(left, right) for _, left, right in segments])
+    commands: Array = np.repeat(speeds, repeats, axis=0) / config.robot.max_wheel_speed
+    return commands
+
+
+def ideal_poses(start: Pose2, segments: list[Segment], config: EnvConfig, period: float) -> Array:
+    """Poses (N, 3) [m, m, rad] every `period` seconds of a robot whose wheels neither slip nor lag."""
+    robot, x, y, yaw = config.robot, start.x, start.y, start.yaw
+    poses = [(x, y, yaw)]
+    for duration, left, right in segments:
+        speed = 0.5 * (left + right) * robot.wheel_radius
+        rate = (right - left) * robot.wheel_radius / robot.track
+        for _ in range(round(duration / period)):
+            middle = yaw + 0.5 * rate * period
+            chord = speed * period * np.sinc(0.5 * rate * period / np.pi)
+            x, y, yaw = x + chord * math.cos(middle), y + chord * math.sin(middle), yaw + rate * period
+            poses.append((x, y, yaw))
+    return np.array(poses)
+
+
+def room_scale(config: EnvConfig) -> float:
+    """How much shorter than in the thesis's room a drive must be; never longer."""
+    (x0, y0, x1, y1), (u0, v0, u1, v1) = _bounds(config)
+    return min(1.0, (x1 - x0) / (u1 - u0), (y1 - y0) / (v1 - v0))
+
+
+def into_room(point: tuple[float, float], config: EnvConfig) -> tuple[float, float]:
+    """A point of the thesis's room at the same place of this room's bounding box [m]."""
+    here, there = _bounds(config)
+    if here == there:
+        return point
+    return (
+        here[0] + (point[0] - there[0]) * (here[2] - here[0]) / (there[2] - there[0]),
+        here[1] + (point[1] - there[1]) * (here[3] - here[1]) / (there[3] - there[1]),
+    )
+
+
+def _bounds(config: EnvConfig) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Of this room and of the thesis's."""
+    return config.room.in_station_frame().bounds, _THESIS_ROOM.bounds
+
+
+def _segments(moves: list[tuple[float, float]], config: EnvConfig) -> list[Segment]:
+    """All moves, with a pause wherever driving and turning on the spot meet."""
+    segments: list[Segment] = []
+    for before, move in zip([STOP, *moves], moves, strict=False):
+        if STOP not in (before, move) and (before[0] > 0) != (move[0] > 0):
+            segments.append((_whole_steps(PAUSE, config), 0.0, 0.0))
+        segments.append(_segment(*move, config))
+    return segments
+
+
+def _segment(forward: float, turn: float, config: EnvConfig) -> Segment:
+    """One move in a whole number of steps, hence at most at the speed that was asked for."""
+    robot = config.robot
+    duration = _whole_steps(max(forward / SPEED, abs(turn) / TURN_RATE) or 1.0, config)
+    sideways = 0.5 * robot.track * turn
+    left = (forward - sideways) / duration / robot.wheel_radius
+    right = (forward + sideways) / duration / robot.wheel_radius
+    return duration, left, right
+
+
+def _whole_steps(seconds: float, config: EnvConfig) -> float:
+    """The next whole multiple of the environment's step [s]."""
+    return config.timing.step * math.ceil(seconds / config.timing.step - 1e-9)
+
+
+_THESIS_ROOM: Room = RoomConfig().in_station_frame()

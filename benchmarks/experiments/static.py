@@ -1,0 +1,53 @@
+"""The static experiment (thesis, 5.1): a target at rest at seven points."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from benchmarks.driving import into_room
+from benchmarks.experiments.run import Run
+from benchmarks.published import TEST_POINTS
+from estimators.errors import ConfigError
+from estimators.poses import Pose2
+from gt_env.config import EnvConfig
+from gt_env.config.schema import pose_problem
+
+PLACEMENTS = 10
+"""How often the target is placed anew at each point; the thesis did it once."""
+
+
+def static_points(config: EnvConfig) -> dict[str, Pose2]:
+    """The points of table 5.1, moved to the same places of the bounding box where the room is another.
+
+    Raises:
+        ConfigError: If the target does not fit there.
+    """
+    room, points = config.room.in_station_frame(), {}
+    for name, pose in TEST_POINTS.items():
+        x, y = into_room((pose.x, pose.y), config)
+        points[name] = Pose2(x=x, y=y, yaw=pose.yaw)
+        problem = pose_problem(config, room, points[name])
+        if problem:
+            raise ConfigError(f"room.vertices: test point {name} at ({x:.2f}, {y:.2f}): {problem}")
+    return points
+
+
+def static_runs(
+    config: EnvConfig, methods: tuple[str, ...], samples: int, seed: np.random.SeedSequence
+) -> dict[str, tuple[Run, ...]]:
+    """Several runs per test point, together `samples` environment steps without a command.
+
+    A target at rest before a camera at rest is seen in one and the same raster of pixels for as long as one
+    looks. Each placement lets the pan unit settle anew, so that the heading's error is that of the method and
+    not that of one raster.
+    """
+    points = static_points(config)
+    still = np.zeros((samples // PLACEMENTS, 2))
+    seeds = iter(seed.generate_state(len(points) * PLACEMENTS).tolist())
+    return {
+        name: tuple(
+            Run(config=config, methods=methods, pose=pose, actions=still, seed=next(seeds))
+            for _ in range(PLACEMENTS)
+        )
+        for name, pose in points.items()
+    }

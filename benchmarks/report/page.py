@@ -1,0 +1,72 @@
+"""The report as one self-contained HTML page."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from benchmarks.published import thesis_average_mae
+from benchmarks.report.gallery import Plate
+from benchmarks.report.scores import MM, TO_ERROR_UNITS, Scores, scaled, times
+from benchmarks.report.tables import NONE, Table
+
+SECTIONS = {
+    "station": "What the station measures",
+    "static": "Static target",
+    "moving": "Moving target",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fact:
+    """One number of the headline and what the thesis has in its place."""
+
+    value: str
+    unit: str
+    what: str
+    published: str
+
+
+def html_page(
+    scores: Scores, tables: Sequence[Table], plates: Sequence[Plate], folder: Path, setup: dict[str, Any]
+) -> str:
+    """The page with the figures (PNG files in `folder`, named after the plates) embedded."""
+    environment = Environment(
+        loader=PackageLoader("benchmarks"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
+        lstrip_blocks=True,
+    )  # fmt: skip
+    pictures = {p.name: base64.b64encode((folder / f"{p.name}.png").read_bytes()).decode() for p in plates}
+    return environment.get_template("validate.html.j2").render(
+        facts=_facts(scores),
+        method=scores.methods[0],
+        tables=tables,
+        sections=SECTIONS,
+        plates=plates,
+        pictures=pictures,
+        setup=setup,
+        config=json.dumps(setup["config"], indent=1),
+    )
+
+
+def _facts(scores: Scores) -> list[Fact]:
+    """The headline: static errors and the largest moving one, of the first method."""
+    method = scores.methods[0]
+    x, y, yaw = scaled(scores.static_mae(method), TO_ERROR_UNITS)
+    printed = thesis_average_mae() * (MM, MM, 1)
+    path = scores.moving[method]["path"].largest[0]
+    return [
+        Fact(value=_number(x, 1), unit="mm", what="static, x", published=f"{printed[0]:.1f} mm"),
+        Fact(value=_number(y, 1), unit="mm", what="static, y", published=f"{printed[1]:.1f} mm"),
+        Fact(value=_number(yaw, 2), unit="°", what="static, angle", published=f"{printed[2]:.2f}°"),
+        Fact(value=_number(times(path, MM), 0), unit="mm", what="driving, largest in x", published="120 mm"),
+    ]
+
+
+def _number(value: float | None, decimals: int) -> str:
+    return NONE if value is None else f"{value:.{decimals}f}"

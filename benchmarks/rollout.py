@@ -1,0 +1,161 @@
+"""One run of the simulated room, watched by one or more methods at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+from numpy.typing import NDArray
+
+from estimators.poses import Array, Pose2, wrap_angle
+from estimators.wrappers import GroundTruthWrapper
+from gt_env.config import EnvConfig
+
+ARENA = "gt_env:gt_env/Arena-v0"
+Flags = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Track:
+    """What one method said after each step, beside the truth at the stamp it spoke of.
+
+    Attributes:
+        stamp: (N,) of each estimate [s]; -1 before the first fix.
+        true_pose: (N, 3) at these stamps [m, m, rad].
+        gt_pose: (N, 3) [m, m, rad].
+        covariance: (N, 3, 3).
+        valid: (N,) whether the position may be used.
+        yaw_valid: (N,) whether the yaw may be used.
+        states_covariance: Whether the method says how sure it is, or its covariance is a constant.
+    """
+
+    stamp: Array
+    true_pose: Array
+    gt_pose: Array
+    covariance: Array
+    valid: Flags
+    yaw_valid: Flags
+    states_covariance: bool
+
+    def __len__(self) -> int:
+        return len(self.stamp)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Rollout:
+    """One run: the truth after every step, and a track per method.
+
+    Attributes:
+        t: (N,) [s].
+        true_pose: (N, 3) [m, m, rad].
+        tracks: By method.
+    """
+
+    t: Array
+    true_pose: Array
+    tracks: dict[str, Track]
+
+
+def joined(rollouts: Sequence[Rollout]) -> Rollout:
+    """Runs of the same methods, one after the other, as one."""
+    first = rollouts[0]
+    return Rollout(
+        t=np.concatenate([r.t for r in rollouts]),
+        true_pose=np.concatenate([r.true_pose for r in rollouts]),
+        tracks={name: _joined_tracks([r.tracks[name] for r in rollouts]) for name in first.tracks},
+    )
+
+
+def _joined_tracks(tracks: Sequence[Track]) -> Track:
+    return Track(
+        **{
+            f.name: np.concatenate([getattr(t, f.name) for t in tracks])
+            for f in fields(Track)
+            if f.name != "states_covariance"
+        },
+        states_covariance=tracks[0].states_covariance,
+    )
+
+
+def watched_arena(config: EnvConfig, methods: Sequence[str]) -> gym.Env[Any, Any]:
+    """The arena with one ground-truth wrapper per method, under the method's name in `info`."""
+    env: gym.Env[Any, Any] = gym.make(ARENA, config=config, disable_env_checker=True)
+    for method in methods:
+        env = GroundTruthWrapper(env, method=method, name=method)
+    return env
+
+
+def rollout(
+    env: gym.Env[Any, Any],
+    actions: Array,
+    *,
+    seed: int,
+    pose: Pose2 | None = None,
+    settle: int = 0,
+    on_step: Callable[[], None] | None = None,
+) -> Rollout:
+    """Drive an arena and write down truth and estimates after every step.
+
+    Args:
+        env: From `watched_arena`.
+        actions: (steps, n) one per step.
+        seed: Of the episode.
+        pose: Where it starts; None for where the configuration says.
+        settle: Steps of standing still before the first action; they are simulated, not returned.
+        on_step: Called after every step, those of settling too.
+    """
+    methods = _wrappers(env)
+    base: Any = env.unwrapped
+    _, info = env.reset(seed=seed, options=None if pose is None else {"pose": tuple(pose)})
+    infos, ticks = [info], [np.array(base.truth)]
+    for action in np.concatenate([np.zeros((settle, actions.shape[1])), actions]):
+        _, _, _, _, info = env.step(action)
+        infos.append(info)
+        ticks.append(np.array(base.truth))
+        if on_step is not None:
+            on_step()
+    kept, truth = infos[1 + settle :], np.concatenate(ticks)
+    return Rollout(
+        t=np.array([i["t"] for i in kept]),
+        true_pose=np.array([i["true_pose"] for i in kept]),
+        tracks={name: _track(wrapper, kept, truth) for name, wrapper in methods.items()},
+    )
+
+
+def pose_at(stamps: Array, t: Array, poses: Array) -> Array:
+    """Poses (M, 3) at given stamps (M,), linear between samples (N,) and (N, 3); the yaw takes the short way.
+
+    A stamp outside the samples gets the nearest one.
+    """
+    unwrapped = np.column_stack([poses[:, :2], np.unwrap(poses[:, 2])])
+    between = np.column_stack([np.interp(stamps, t, column) for column in unwrapped.T])
+    between[:, 2] = wrap_angle(between[:, 2])
+    return between
+
+
+def _track(wrapper: GroundTruthWrapper, infos: list[dict[str, Any]], truth: Array) -> Track:
+    said = [info[wrapper.name] for info in infos]
+    stamp = np.array([s["stamp"] for s in said])
+    return Track(
+        stamp=stamp,
+        true_pose=pose_at(stamp, truth[:, 0], truth[:, 1:]),
+        gt_pose=np.array([s["pose"] for s in said]),
+        covariance=np.array([s["covariance"] for s in said]),
+        valid=np.array([s["valid"] for s in said], dtype=bool),
+        yaw_valid=np.array([s["yaw_valid"] for s in said], dtype=bool),
+        states_covariance=getattr(wrapper.estimator, "states_covariance", True),
+    )
+
+
+def _wrappers(env: gym.Env[Any, Any]) -> dict[str, GroundTruthWrapper]:
+    """The ground-truth wrappers around an environment by name, innermost first."""
+    found = {}
+    layer: Any = env
+    while isinstance(layer, gym.Wrapper):
+        if isinstance(layer, GroundTruthWrapper):
+            found[layer.name] = layer
+        layer = layer.env
+    return dict(reversed(found.items()))

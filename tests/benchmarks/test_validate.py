@@ -1,0 +1,89 @@
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from benchmarks.commands import validate as command
+from benchmarks.output import OutputError
+from estimators.errors import ConfigError, MissingExtraError
+
+
+def gt_env(*arguments, **options):
+    # A wide terminal: tables must not be folded for the assertions.
+    environment = {**os.environ, "COLUMNS": "140"}
+    return subprocess.Popen(
+        [sys.executable, "-m", "benchmarks", "validate", *arguments],
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, **options,
+    )  # fmt: skip
+
+
+def refuse_to_simulate(monkeypatch):
+    def simulated(*_, **__):
+        pytest.fail("something was simulated")
+
+    monkeypatch.setattr("benchmarks.validation.run_side_by_side", simulated)
+
+
+def test_an_unknown_method_is_refused(tmp_path):
+    with pytest.raises(ConfigError, match="--method magic: must be one of thesis"):
+        command.validate(method=["magic"], out=tmp_path)
+
+
+def test_a_missing_extra_is_named_before_anything_is_simulated(tmp_path, monkeypatch):
+    refuse_to_simulate(monkeypatch)
+    monkeypatch.setattr(command, "find_spec", lambda name: None)
+    with pytest.raises(MissingExtraError, match=r"--no-figures.*gt-env\[report\]"):
+        command.validate(out=tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_an_output_folder_that_is_a_file_is_refused_before_anything_is_simulated(tmp_path, monkeypatch):
+    refuse_to_simulate(monkeypatch)
+    (tmp_path / "taken").touch()
+    with pytest.raises(OutputError, match="cannot be written"):
+        command.validate(out=tmp_path / "taken" / "out")
+
+
+@pytest.mark.slow
+def test_quick_run_ends_with_the_path_of_a_complete_report(tmp_path):
+    out = tmp_path / "out"
+    run = gt_env("--quick", "--config", "simtwo", "--out", str(out))
+    printed, _ = run.communicate(timeout=200)
+    assert run.returncode == 0, printed
+    assert printed.rstrip().splitlines()[-1] == str(out / "report.html")
+    for title in ("table 5.2", "table 5.3", "Moving target", "data sheets"):
+        assert title in printed
+    report = json.loads((out / "report.json").read_text())
+    d = report["static"]["thesis"]["D"]["mean"]
+    assert d[0] + 3.0 == pytest.approx(0.026, abs=0.010)  # the fence-post bias; few samples
+    assert d[1] - 3.0 == pytest.approx(0.026, abs=0.010)
+    assert 60 < report["moving"]["path"]["thesis"]["max_xy_mm"] < 130
+    assert not list(out.glob(".unfinished-*"))
+
+
+@pytest.mark.slow
+def test_the_report_does_not_depend_on_the_number_of_jobs(tmp_path):
+    for jobs in ("1", "2"):
+        run = gt_env("--quick", "--no-figures", "--jobs", jobs, "--out", str(tmp_path / jobs))
+        printed, _ = run.communicate(timeout=200)
+        assert run.returncode == 0, printed
+    assert (tmp_path / "1/report.json").read_bytes() == (tmp_path / "2/report.json").read_bytes()
+
+
+@pytest.mark.slow
+def test_ctrl_c_ends_promptly_and_leaves_nothing_half_written(tmp_path):
+    out = tmp_path / "out"
+    run = gt_env(
+        "--quick", "--out", str(out), start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # a background job ignores it
+    )  # fmt: skip
+    time.sleep(5)
+    os.killpg(run.pid, signal.SIGINT)
+    printed, _ = run.communicate(timeout=10)
+    assert run.returncode == 130
+    assert "Traceback" not in printed
+    assert list(out.iterdir()) == []
