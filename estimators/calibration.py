@@ -1,8 +1,8 @@
 """What is known, or believed, about the station, the target and the room.
 
 One type for two uses: what the simulated station *is*, and what an estimator *believes* of it. The two are
-equal unless an experiment makes them differ. All lengths [m], all angles [rad], in the station's frame: origin
-at the LRF, x to the right along its wall, y into the room, z up.
+equal unless an experiment makes them differ. All lengths [m], all angles [rad], in the station's frame:
+origin at the LRF, x to the right along its wall, y into the room, z up.
 """
 
 from __future__ import annotations
@@ -45,9 +45,9 @@ class CameraCalibration:
         height: Rows of a frame [px].
         distortion: Up to two coefficients k1, k2 of Brown's radial model, as OpenCV counts them.
         roll: Turn of the camera about its axis of view; positive turns the picture clockwise.
-        center_px: Principal point u, v [px], where pixel (0, 0) has its middle at (0, 0); None for the middle of
-            the image, ((width - 1) / 2, (height - 1) / 2). A renderer that samples pixels at their corners has
-            its own.
+        center_px: Principal point u, v [px], where pixel (0, 0) has its middle at (0, 0); None for the middle
+            of the image, ((width - 1) / 2, (height - 1) / 2). A renderer that samples pixels at their corners
+            has its own.
     """
 
     position: tuple[float, float, float] = (0.0, 0.10, 0.165)

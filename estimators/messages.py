@@ -168,7 +168,7 @@ def _remade_frame(stamp: float, rgb: NDArray[np.uint8], pan: float, source: str)
 class TargetSighting(Message):
     """What was seen of the target in one frame: the rows and columns of 4.2.2, without the frame itself.
 
-    A recording may keep these instead of frames. All in pixels of the frame, `column` to the right, `row` down.
+    A recording may keep these instead of frames. All in pixels, `column` to the right, `row` down.
 
     Attributes:
         pan: Encoder reading of the pan unit [rad].
@@ -237,7 +237,7 @@ class PoseEstimate:
         yaw_valid: Whether the yaw may be used.
 
     Raises:
-        MeasurementError: If the pose is not finite, or the covariance is not a finite symmetric (3, 3) matrix.
+        MeasurementError: If the pose is not finite, or the covariance not a finite symmetric (3, 3) matrix.
     """
 
     stamp: float

@@ -70,7 +70,7 @@ class Room:
         return ranges[np.arange(len(bearings)), index], index
 
     def wall_distances(self, point: Sequence[float] | Array) -> Array:
-        """Perpendicular distance (E,) from a point to the line of each edge [m], positive on the room's side."""
+        """Perpendicular distance (E,) from a point to each edge's line [m], positive on the room's side."""
         start, end = self.edges
         wall = end - start
         to_point = np.asarray(point, float) - start

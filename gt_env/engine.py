@@ -64,7 +64,7 @@ class Engine:
 
     @property
     def raw(self) -> tuple[Any, int]:
-        """Pybullet itself and this world's client, for benchmarks that compare the facade with plain calls."""
+        """The engine and this world's client, for benchmarks that compare the facade with plain calls."""
         return self._p, self._client
 
     def reset(self) -> None:
@@ -90,7 +90,7 @@ class Engine:
         """An endless floor at z = 0, not seen; returns the body's number."""
         p, client = self._p, self._client
         plane = p.createCollisionShape(p.GEOM_PLANE, physicsClientId=client)
-        # Without a picture of its own the engine draws a chequered one, whose grey the thesis takes for target.
+        # Without a picture of its own the engine draws a chequered one, whose grey passes for target.
         speck = p.createVisualShape(
             p.GEOM_BOX, halfExtents=[1e-3] * 3, visualFramePosition=[0, 0, -1], physicsClientId=client
         )
@@ -229,7 +229,7 @@ class Engine:
         if len(parts) > 1:
             picture = np.minimum(np.sum(parts, axis=0, dtype=np.uint16), 255).astype(np.uint8)
         # The renderer's own sky is white, which is the target's colour.
-        sky = cv2.compare(depth, 1 - 1e-6, cv2.CMP_GT)
+        sky = np.greater(depth, 1 - 1e-6).view(np.uint8)
         cv2.copyTo(_one_color(view.height, view.width, light.backdrop_color), sky, picture)
         return picture
 

@@ -55,7 +55,8 @@ class ArenaEnv(gym.Env[Observation, Array]):
     `env.unwrapped.truth` the true pose at every physics tick since then, rows of t, x, y, yaw.
 
     ## Start
-    At `robot.start`, or at `reset(options={"pose": (x, y, yaw)})`, at rest, pan unit settled on the first scan.
+    At `robot.start`, or at `reset(options={"pose": (x, y, yaw)})`, at rest, pan unit settled on the first
+    scan.
 
     ## Arguments
     `config`: an `EnvConfig`, a mapping, a preset's name or a TOML file's path. `render_mode`: `rgb_array`, or

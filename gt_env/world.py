@@ -84,7 +84,7 @@ class World:
 
     def reset(self, pose: Pose2, rng: np.random.Generator) -> None:
         """Build everything anew with the robot at rest at a pose; every sensor measures once."""
-        # One generator per sensor in fixed order, so that switching one off leaves the others' noise as it was.
+        # One generator per sensor in fixed order, so that switching one off leaves the others' noise.
         for_lrf, for_camera = rng.spawn(2)
         self.engine.reset()
         floor, self.walls = build_scene(self.engine, self.config, self.room)

@@ -16,10 +16,10 @@ from estimators.thesis.zone import K_SIGMA, acceptance_zone
 AVERAGE_TICKS = 5
 """Length of the moving average [control ticks] (4.1.2)."""
 CONTROL_PERIOD = 0.05
-"""Control tick of the author's program [s]; the average runs on these, not on scans, so it spans 2.5 scans."""
+"""Control tick of the author's program [s]; the average runs on these, so it spans 2.5 scans."""
 
 LEAST_MARGIN = 1e-3
-"""Of the acceptance zone [m]: without it, rounding decides whether a noise-free beam on a wall is accepted."""
+"""Of the acceptance zone [m]: without it, rounding decides whether a noise-free beam on a wall counts."""
 
 
 def find_run(accepted: NDArray[np.bool_]) -> tuple[int, int] | None:

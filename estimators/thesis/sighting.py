@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -73,6 +75,6 @@ def _markers(row: NDArray[np.uint8], target: TargetGeometry) -> tuple[NDArray[np
     index_of[0] = index_of[7] = -1  # dark and grey are no markers
     index = index_of[code]
     change = np.flatnonzero(np.diff(index, prepend=-1, append=-1))
-    runs = [(a, b) for a, b in zip(change[:-1], change[1:], strict=True) if index[a] >= 0]
+    runs = [(a, b) for a, b in pairwise(change.tolist()) if index[a] >= 0]
     centres = np.array([0.5 * (a + b - 1) for a, b in runs])
     return centres, np.array([index[a] for a, _ in runs], dtype=np.int64)

@@ -89,7 +89,7 @@ class EnvConfig:
         return Pose2(x=self.robot.start[0], y=self.robot.start[1], yaw=self.robot.start_yaw_deg * DEG)
 
     def ticks(self, period: float) -> int:
-        """How many physics ticks a period [s] takes; they divide it, or this configuration would not exist."""
+        """How many physics ticks a period [s] takes; they divide it, or there were no such config."""
         return round(period / self.timing.tick)
 
 
@@ -117,8 +117,8 @@ def _problems(c: EnvConfig) -> Iterator[str]:
         )
     if not c.target.z_min < c.lrf.height < c.target.z_max:
         yield (
-            f"lrf.height = {c.lrf.height}: must be between target.z_min = {c.target.z_min} and target.z_max = "
-            f"{c.target.z_max}, else the LRF does not see the target"
+            f"lrf.height = {c.lrf.height}: must be between target.z_min = {c.target.z_min} and "
+            f"target.z_max = {c.target.z_max}, else the LRF does not see the target"
         )
     if not c.light.lamps:
         yield "light.lamps = []: must hold at least one lamp; it may have intensity 0"
@@ -129,17 +129,20 @@ def _problems(c: EnvConfig) -> Iterator[str]:
 
 def _lrf_problems(c: EnvConfig) -> Iterator[str]:
     if c.lrf.sweep_time > 1 / c.lrf.rate:
-        yield f"lrf.sweep_time = {c.lrf.sweep_time}: must not exceed the time between scans, {1 / c.lrf.rate:g} s"
+        yield (
+            f"lrf.sweep_time = {c.lrf.sweep_time}: must not exceed the time between scans, "
+            f"{1 / c.lrf.rate:g} s"
+        )
     if c.lrf.sweep_time and c.lrf.backend == "bullet":
         yield (
-            f"lrf.sweep_time = {c.lrf.sweep_time}: must be 0 with lrf.backend = 'bullet', whose world stands at one "
-            f"instant; 'closed_form' sweeps"
+            f"lrf.sweep_time = {c.lrf.sweep_time}: must be 0 with lrf.backend = 'bullet', whose world "
+            f"stands at one instant; 'closed_form' sweeps"
         )
     for i, obstacle in enumerate(c.room.obstacles):
         if obstacle.shape == "urdf" and c.lrf.enabled and c.lrf.backend == "closed_form":
             yield (
-                f"room.obstacles.{i} = {obstacle.file!r}: lrf.backend = 'closed_form' cannot range a URDF: use "
-                f"lrf.backend = 'bullet', or an obstacle of shape 'box' or 'cylinder'"
+                f"room.obstacles.{i} = {obstacle.file!r}: lrf.backend = 'closed_form' cannot range a URDF: "
+                f"use lrf.backend = 'bullet', or an obstacle of shape 'box' or 'cylinder'"
             )
 
 
@@ -147,12 +150,13 @@ def _robot_problems(c: EnvConfig) -> Iterator[str]:
     """What would give the body a negative size."""
     if c.robot.track <= c.robot.wheel_width + 0.004:
         yield (
-            f"robot.track = {c.robot.track}: must be above robot.wheel_width = {c.robot.wheel_width} and 4 mm of air"
+            f"robot.track = {c.robot.track}: must be above robot.wheel_width = {c.robot.wheel_width} "
+            f"and 4 mm of air"
         )
     if c.target.z_min <= c.robot.ground_clearance:
         yield (
-            f"target.z_min = {c.target.z_min}: must be above robot.ground_clearance = {c.robot.ground_clearance}, "
-            f"the target stands on the robot's body"
+            f"target.z_min = {c.target.z_min}: must be above robot.ground_clearance = "
+            f"{c.robot.ground_clearance}, the target stands on the robot's body"
         )
 
 
@@ -201,7 +205,7 @@ def pose_problem(c: EnvConfig, room: Room, pose: Pose2) -> str | None:
     clearance = room.clearance((target.x, target.y))
     if clearance < c.target.radius - 1e-9:
         return (
-            f"the target's axis must be inside the room and at least target.radius = {c.target.radius} m from "
-            f"every wall, it is at {clearance:.3f} m"
+            f"the target's axis must be inside the room and at least target.radius = {c.target.radius} m "
+            f"from every wall, it is at {clearance:.3f} m"
         )
     return None

@@ -1,1 +1,1 @@
-"""The station's and the robot's sensors: value, schedule and corruption. None of them sees the environment."""
+"""The station's and the robot's sensors: value, schedule and corruption. None sees the environment."""

@@ -1,7 +1,7 @@
 """What crosses the LRF's scanning plane, and ranges to it in closed form.
 
-Everything upright is a disc or a rectangle in that plane. What does not move is ranged once; a scan then costs
-only the beams that point near the robot.
+Everything upright is a disc or a rectangle in that plane. What does not move is ranged once; a scan then
+costs only the beams that point near the robot.
 """
 
 from __future__ import annotations
@@ -162,7 +162,7 @@ class PlaneRanging:
         return out
 
     def cast_swept(self, poses: Array) -> Array:
-        """Ranges (N,) [m] with the moving body at a pose of its own for each beam: (N, 3) x, y [m], yaw [rad]."""
+        """Ranges (N,) [m] with the moving body at a pose for each beam: (N, 3) x, y [m], yaw [rad]."""
         out = self._still.copy()
         x, y, yaw = poses.T
         c, s = np.cos(yaw), np.sin(yaw)
@@ -173,7 +173,7 @@ class PlaneRanging:
         return out
 
     def _beams_towards(self, dx: float, dy: float, reach: float) -> Iterable[slice]:
-        """The beams that may meet a circle: one run of them, or two where it lies across the first bearing."""
+        """The beams that may meet a circle: one run, or two where it lies across the first bearing."""
         distance = math.hypot(dx, dy)
         if distance <= reach:
             return (slice(None),)

@@ -44,7 +44,7 @@ CASES = {
     "radius 0.15": ({"target": {"radius": 0.15}}, (3.0, 1.0)),
     "Hokuyo": ({"preset": "hokuyo_utm30lx"}, (0.0, 2.0)),
     "box in the room": (
-        {"room": {"obstacles": [{"position": [1.5, 3.0], "size": [0.5, 0.5, 0.5]}]}},
+        {"room": {"obstacles": [{"shape": "box", "position": [1.5, 3.0], "size": [0.5, 0.5, 0.5]}]}},
         (0.8, 2.9),
     ),
 }

@@ -26,7 +26,7 @@ def picture(
     pose: tuple[float, float, float],
     direction: float,
     *,
-    samples: int = 8,
+    samples: tuple[int, int] = (8, 3),
     noise: float = 0.0,
     seed: int = 0,
     colors=None,
@@ -38,7 +38,7 @@ def picture(
 ) -> np.ndarray:
     """Frame (H, W, 3) of a target at a pose (x, y, yaw), seen in a direction [rad].
 
-    `samples` per pixel and direction; 1 samples the middle of a pixel. `extra(a, b)` may paint over: it gets
+    `samples` per pixel, across and down; (1, 1) samples the middle of a pixel. `extra(a, b)` may paint over: it gets
     straight coordinates (N,) and returns a mask (N,) and a colour.
     """
     camera, t = calibration.camera, calibration.target
@@ -47,9 +47,7 @@ def picture(
     dx, dy = pose[0] - camera.position[0], pose[1] - camera.position[1]
     d = math.hypot(dx, dy)
     axis = math.remainder(math.atan2(dy, dx) - direction, 2 * math.pi)
-    offsets = (np.arange(samples) + 0.5) / samples - 0.5
-    u = (np.arange(camera.width)[:, None] + offsets).ravel()
-    v = (np.arange(camera.height)[:, None] + offsets).ravel()
+    across, down = ((np.arange(n) + 0.5) / n - 0.5 for n in samples)
 
     def shade(a: Array, b: Array, with_target: bool) -> Array:
         height = -b / model.focal  # per metre ahead
@@ -117,28 +115,23 @@ def picture(
             total += strength * facing[:, None] * np.array(color)
         return np.minimum(total, 1.0)
 
-    straight = model.is_straight
-    window = np.zeros((camera.height, camera.width), bool)
-    half = math.asin(min(0.99, t.radius / d)) * 1.3 + 0.02
-    if target and abs(axis) < 1.2:
-        lo, hi = model.column(axis + half), model.column(axis - half)
-        if not straight:
-            lo, hi = lo - 0.2 * camera.width, hi + 0.2 * camera.width
-        c0 = int(np.clip(lo + model.center[0], 0, camera.width))
-        c1 = int(np.clip(hi + model.center[0] + 1, 0, camera.width))
-        window[:, c0:c1] = True
-    coarse_u, coarse_v = np.meshgrid(
-        np.arange(camera.width, dtype=float), np.arange(camera.height, dtype=float)
-    )
-    a, b = model.straighten(coarse_u.ravel(), coarse_v.ravel())
+    u, v = np.meshgrid(np.arange(camera.width, dtype=float), np.arange(camera.height, dtype=float))
+    a, b = model.straighten(u.ravel(), v.ravel())
     image[:] = shade(a, b, False).reshape(image.shape)
-    columns = np.flatnonzero(window.any(axis=0))
-    if columns.size:
-        us = u.reshape(camera.width, samples)[columns].ravel()
-        fine_u, fine_v = np.meshgrid(us, v)
-        a, b = model.straighten(fine_u.ravel(), fine_v.ravel())
-        fine = shade(a, b, True).reshape(camera.height, samples, len(columns), samples, 3)
-        image[:, columns] = fine.mean(axis=(1, 3))
+    half = math.asin(min(0.99, t.radius / d)) * 1.1 + 0.01
+    if target and abs(axis) < 1.2:
+        low, high = float(model.column(axis + half)), float(model.column(axis - half))
+        tall = (0.5 * (t.z_max - t.z_min) + 0.005) * model.focal / (d * math.cos(axis) - t.radius)
+        corners = model.distort(np.array([low, high] * 2), tall * np.array([-1.0, -1.0, 1.0, 1.0]))
+        c0, r0 = (max(int(c.min()), 0) for c in corners)
+        c1, r1 = (int(c.max()) + 2 for c in corners)
+        part = image[r0:r1, c0:c1]
+        fine_u = (np.arange(c0, c0 + part.shape[1])[:, None] + across).ravel()
+        fine_v = (np.arange(r0, r0 + part.shape[0])[:, None] + down).ravel()
+        u, v = np.meshgrid(fine_u, fine_v)
+        a, b = model.straighten(u.ravel(), v.ravel())
+        fine = shade(a, b, True).reshape(part.shape[0], samples[1], part.shape[1], samples[0], 3)
+        part[:] = fine.mean(axis=(1, 3))
     rng = np.random.default_rng(seed)
     if noise:
         image = image + rng.normal(0, noise, image.shape)

@@ -30,7 +30,7 @@ class LightConfig:
         ambient: Light from everywhere, as a fraction of full white.
         lamps: The thesis has one, close to the camera.
         shadow: Whether the lamps cast shadows.
-        backdrop_color: RGB of what is seen above the walls; must not be grey, which the thesis takes for target.
+        backdrop_color: RGB of what is seen above the walls; not a grey, which the thesis takes for target.
     """
 
     ambient: NotNegative = 0.60

@@ -98,7 +98,14 @@ class CameraConfig:
             fov=self.fov_deg * DEG,
             width=self.width,
             height=self.height,
+            center_px=self._center_px(),
         )
+
+    def _center_px(self) -> tuple[float, float] | None:
+        """Where the optical axis meets the image, pixel (0, 0) having its middle at (0, 0) [px]."""
+        if self.renderer == "tiny":  # it samples pixels at their corners, and rows one too high
+            return 0.5 * self.width, 0.5 * self.height - 1.0
+        return None
 
 
 @section
