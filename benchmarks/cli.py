@@ -10,6 +10,7 @@ from typing import Any
 import typer
 from rich.console import Console
 
+from benchmarks.commands.bench import bench
 from benchmarks.commands.play import play
 from benchmarks.commands.replay import replay
 from benchmarks.commands.validate import validate
@@ -45,6 +46,7 @@ def _interruptible(command: Command) -> Command:
 
 app.command()(_interruptible(validate))
 app.command()(_interruptible(replay))
+app.command()(_interruptible(bench))
 app.command()(play)  # it has recordings to save, and says itself what became of them
 
 

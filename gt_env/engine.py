@@ -323,6 +323,21 @@ class Body:
             physicsClientId=self._client,
         )
 
+    def may_sleep(self, allowed: bool) -> None:
+        """Let the engine stop moving the body once it rests, or wake it up and keep it awake.
+
+        What a solver leaves over makes a robot at rest creep by tenths of a millimetre a second.
+        """
+        p = self._p
+        p.changeDynamics(
+            self.number,
+            -1,
+            activationState=p.ACTIVATION_STATE_ENABLE_SLEEPING
+            if allowed
+            else p.ACTIVATION_STATE_DISABLE_SLEEPING | p.ACTIVATION_STATE_WAKE_UP,
+            physicsClientId=self._client,
+        )
+
     def touches(self, other: int) -> bool:
         """Whether it is in contact with another body."""
         return bool(self._p.getContactPoints(self.number, other, physicsClientId=self._client))

@@ -34,14 +34,18 @@ class DifferentialRobot:
         self._speeds = [0.0] * self.wheels
         self._angles = self._body.wheel_angles()
         self._command()
+        self._body.may_sleep(True)
 
     def drive(self, action: Array) -> None:
         """Set the wheel speeds to drive at, over the maximum (2,): left, right, each in [-1, 1]."""
+        at_rest = self._at_rest
         self._goal = (self._config.max_wheel_speed * action).tolist()
+        if at_rest and not self._at_rest:
+            self._body.may_sleep(False)
 
     def ramp(self) -> None:
         """Bring the motors one tick nearer to the commanded speeds."""
-        if not any(self._goal) and not any(self._speeds):
+        if self._at_rest:
             return
         # Plain numbers: for two wheels, every tick, arrays would take as long as reading their angles.
         most = self._config.max_wheel_acceleration * self._tick
@@ -50,6 +54,12 @@ class DifferentialRobot:
             lag = self._angles[i] + self._speeds[i] * self._tick - actual
             self._angles[i] = actual + _within(lag, INTEGRAL_LIMIT)
         self._command()
+        if self._at_rest:
+            self._body.may_sleep(True)
+
+    @property
+    def _at_rest(self) -> bool:
+        return not any(self._goal) and not any(self._speeds)
 
     def _command(self) -> None:
         self._body.command_wheels(self._angles, self._speeds, INTEGRAL_GAIN, self._config.stall_torque)

@@ -10,7 +10,9 @@ import typer
 from rich.console import Console
 
 from benchmarks.commands.options import (
+    AddressOption,
     ConfigOption,
+    EngineOption,
     JobsOption,
     OutOption,
     QuickOption,
@@ -18,6 +20,7 @@ from benchmarks.commands.options import (
     SetOption,
     configuration,
 )
+from benchmarks.engines import Engine
 from benchmarks.output import check_writable, staged
 from estimators.errors import ConfigError, MissingExtraError
 from estimators.protocol import METHODS
@@ -39,6 +42,8 @@ def validate(
     seed: SeedOption = 0,
     quick: QuickOption = False,
     jobs: JobsOption = 2,
+    engine: EngineOption = "loky",
+    address: AddressOption = None,
     method: MethodOption = None,
     out: OutOption = Path("out/validate"),
     no_figures: NoFiguresOption = False,
@@ -53,15 +58,22 @@ def validate(
     from benchmarks.validation import plan_validation, run_validation
 
     methods, settings = _methods(method), configuration(config, overrides)
+    place = Engine(name=engine, address=address)
     if not no_figures:
         _require_report_extra()
     check_writable(out)
     plan = plan_validation(settings, methods, seed=seed, quick=quick)
     watched_arena(settings, methods).close()  # what is wrong with the set-up is said here, not by a worker
     console = Console()
-    validation = run_validation(plan, jobs=jobs, console=console)
+    validation = run_validation(plan, jobs=jobs, console=console, engine=place)
     scores = score_validation(validation)
     setup = describe(plan, validate_command(config, overrides or [], seed, methods, quick=quick))
+    if validation.failed is not None:
+        # What was simulated is kept; the tables and figures want all of it.
+        setup["failed"] = {failure.task: failure.reason for failure in validation.failed.failures}
+        with staged(out) as folder:
+            write_numbers(folder, scores, setup)
+        raise validation.failed
     tables = all_tables(scores)
     with staged(out) as folder:
         report = write_numbers(folder, scores, setup)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import asdict, field
 from typing import Any
 
+import numpy as np
 from pydantic import model_validator
 
 from estimators.calibration import DEG, Calibration
@@ -208,4 +209,9 @@ def pose_problem(c: EnvConfig, room: Room, pose: Pose2) -> str | None:
             f"the target's axis must be inside the room and at least target.radius = {c.target.radius} m "
             f"from every wall, it is at {clearance:.3f} m"
         )
+    half_x = max(0.5 * c.robot.length, c.robot.wheel_radius)
+    half_y = 0.5 * (c.robot.track + c.robot.wheel_width)
+    for corner in pose.apply(np.array([[i * half_x, j * half_y] for i in (-1, 1) for j in (-1, 1)])):
+        if not room.contains(corner):
+            return f"the robot's corner at ({corner[0]:.3f}, {corner[1]:.3f}) must be inside the room"
     return None

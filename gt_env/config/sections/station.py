@@ -38,7 +38,7 @@ class LrfConfig:
     backend: Literal["closed_form", "bullet"] = "closed_form"
     rate: Positive = 10.0
     sweep_time: NotNegative = 0.0
-    beams: Whole = 360
+    beams: Annotated[int, Field(strict=True, ge=1, le=16384)] = 360
     bearing_min_deg: Real = 0.0
     bearing_increment_deg: Positive = 0.5
     position: Point = (0.0, 0.0)
