@@ -38,8 +38,8 @@ def picture(
 ) -> np.ndarray:
     """Frame (H, W, 3) of a target at a pose (x, y, yaw), seen in a direction [rad].
 
-    `samples` per pixel, across and down; (1, 1) samples the middle of a pixel. `extra(a, b)` may paint over: it gets
-    straight coordinates (N,) and returns a mask (N,) and a colour.
+    `samples` per pixel, across and down; (1, 1) samples the middle of a pixel. `extra(a, b)` may paint over:
+    it gets straight coordinates (N,) and returns a mask (N,) and a colour.
     """
     camera, t = calibration.camera, calibration.target
     model = CameraModel(camera)

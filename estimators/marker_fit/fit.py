@@ -1,0 +1,170 @@
+"""From a frame and a rough position to bearing and yaw."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+import numpy as np
+
+from estimators.calibration import Calibration
+from estimators.errors import MeasurementError
+from estimators.marker_fit.association import Associator
+from estimators.marker_fit.camera import CameraModel
+from estimators.marker_fit.centroids import fit_centroids
+from estimators.marker_fit.measurement import MarkerMeasurement
+from estimators.marker_fit.outline import TargetOutline
+from estimators.marker_fit.photometric import fit_photometric
+from estimators.marker_fit.problem import MODEL_ERROR, Problem, Solution, pose_problem
+from estimators.marker_fit.profile import ProfileReader
+from estimators.marker_fit.runs import find_runs
+from estimators.marker_fit.sampled import feasible_poses
+from estimators.marker_fit.silhouette import find_silhouette
+from estimators.messages import ImageFrame
+from estimators.poses import Array, wrap_angle
+
+Method = Literal["photometric", "centroids"]
+GOOD_RESIDUAL = 0.04
+"""Residual of a fit that has found all edges, root mean square [px]."""
+WORST_RESIDUAL = 0.3
+"""Residual above which what was seen is not the target, root mean square [px]."""
+WORST_SAMPLED_RESIDUAL = 1.0
+"""The same with one sample a pixel [px]."""
+LEAST_SCORE = -7.0
+"""Log-likelihood of the markers' places and colours below which they are not those of the target."""
+WIDTH_TOLERANCE = 0.06
+"""How much the width may differ from the expected one, beyond pixels and the distance's deviation."""
+
+
+class MarkerFit:
+    """Measures bearing and yaw of the target in single frames.
+
+    Args:
+        calibration: What is believed of camera and target.
+        method: `photometric` compares the whole profile, `centroids` only the middles of the markers.
+        model_error: How far lens and target are from what is believed, standard deviation [px]; the fit's own
+            misfit widens the covariance where this is too little.
+    """
+
+    def __init__(
+        self, calibration: Calibration, method: Method = "photometric", model_error: float = MODEL_ERROR
+    ) -> None:
+        camera = calibration.camera
+        self._calibration = camera
+        self._target = calibration.target
+        self._camera = CameraModel(camera)
+        self._reader = ProfileReader(self._camera, camera, calibration.target)
+        self._outline = TargetOutline(calibration.target, camera.focal)
+        self._associator = Associator(calibration.target, self._outline)
+        self._method: Method = method
+        self._model_error = model_error
+
+    def measure(
+        self, frame: ImageFrame, position: tuple[float, float] | Array, covariance: Array
+    ) -> MarkerMeasurement | None:
+        """Measure the target in a frame.
+
+        Args:
+            frame: Of the calibrated camera.
+            position: Rough x, y of the target's axis [m], from the LRF.
+            covariance: (2, 2) of it [m^2].
+
+        Returns:
+            None if the target is not seen, partly hidden or outside the frame, or does not look as it should.
+
+        Raises:
+            MeasurementError: If the frame has another size than the calibrated one.
+        """
+        c = self._calibration
+        if frame.rgb.shape[:2] != (c.height, c.width):
+            height, width = frame.rgb.shape[:2]
+            raise MeasurementError(
+                f"the frame is {width} x {height} px, but the camera is calibrated for "
+                f"{c.width} x {c.height} px"
+            )
+        dx, dy = float(position[0]) - c.position[0], float(position[1]) - c.position[1]
+        distance = math.hypot(dx, dy)
+        if not distance > 1.2 * self._target.radius:
+            return None
+        ray = np.array([dx, dy]) / distance
+        along = math.sqrt(float(ray @ covariance @ ray))
+        across = math.sqrt(max(float(np.trace(covariance)) - along**2, 0.0))
+        direction = frame.pan + c.pan_offset
+        axis = float(wrap_angle(math.atan2(dy, dx) - direction))
+        problem, start, false_colors = self._see(frame, axis, (distance, max(along, 1e-3)), across / distance)
+        if problem is None:
+            return None
+        solution = self._solve(problem, start)
+        if solution is None:
+            return None
+        return self._measurement(frame.stamp, direction, problem, solution, false_colors)
+
+    def _see(
+        self, frame: ImageFrame, axis: float, distance: tuple[float, float], sigma: float
+    ) -> tuple[Problem | None, Array, int]:
+        """What there is to fit, where to start (3,), and how many colours are false."""
+        nothing = (None, np.empty(0), 0)
+        d, d_sigma = distance
+        profile = self._reader.read(frame.rgb, axis, d, sigma * self._camera.focal / math.cos(axis) ** 2)
+        if profile is None:
+            return nothing
+        silhouette = find_silhouette(profile, float(self._camera.column(axis)))
+        if silhouette is None:
+            return nothing
+        left, right = (float(a) for a in self._camera.angle(np.array(silhouette.edges)))
+        axis, half = 0.5 * (left + right), 0.5 * (left - right)
+        expected = math.asin(self._target.radius / d)
+        slack = 1.5 / self._camera.focal + expected * (WIDTH_TOLERANCE + 4 * d_sigma / d)
+        if abs(half - expected) > slack:
+            return nothing
+        runs = find_runs(profile, silhouette)
+        found = runs and self._associator.assign(runs, axis, d)
+        if not runs or not found or found.score < LEAST_SCORE:
+            return nothing
+        problem = pose_problem(
+            self._target, silhouette, runs, found, distance, self._camera.focal, profile, self._model_error
+        )
+        return problem, np.array([axis, axis + found.relative, d]), found.false_colors
+
+    def _solve(self, problem: Problem, start: Array) -> Solution | None:
+        solution = fit_centroids(problem, self._outline, start)
+        # Of markers narrower than a pixel the profile shows where they are not, and misleads the steps.
+        wide = self._outline.widths(solution.pose)[problem.markers].max() > 1.0
+        if self._method == "photometric" and not problem.quantised and wide:
+            whole = fit_photometric(problem, self._outline, solution.pose)
+            per_radian = self._outline.focal * self._outline.radius / problem.distance
+            moved = abs(whole.pose[1] - solution.pose[1]) * per_radian
+            # Steps that lead away from the centroids, to no good fit, have lost the edges.
+            good = math.sqrt(whole.misfit) * problem.share_error < GOOD_RESIDUAL
+            if moved < (1.0 if good else 0.3):
+                solution = whole
+        worst = WORST_SAMPLED_RESIDUAL if problem.quantised else WORST_RESIDUAL
+        if not math.sqrt(solution.misfit) * problem.share_error < worst:
+            return None
+        if problem.quantised and self._method == "photometric":
+            solution = feasible_poses(problem, self._outline, solution)
+        return solution
+
+    def _measurement(
+        self, stamp: float, direction: float, problem: Problem, solution: Solution, false_colors: int
+    ) -> MarkerMeasurement:
+        axis, yaw, distance = (float(v) for v in solution.pose)
+        # For a given distance: the information's block of bearing and yaw, and how they lean on the distance.
+        covariance = np.linalg.inv(solution.information[:2, :2]) * max(1.0, solution.misfit)
+        sensitivity = -np.linalg.solve(solution.information[:2, :2], solution.information[:2, 2])
+        turn = (yaw - axis) * self._outline.radius / (distance - self._outline.radius)
+        return MarkerMeasurement(
+            stamp=stamp,
+            bearing=float(wrap_angle(direction + axis)),
+            yaw=float(wrap_angle(direction + yaw)),
+            distance=distance,
+            covariance=np.asarray(covariance, float),
+            sensitivity=np.asarray(sensitivity, float),
+            camera=self._calibration.position[:2],
+            markers=len(problem.markers),
+            false_colors=false_colors,
+            misfit=solution.misfit,
+            quantised=problem.quantised,
+            systematic=max(problem.systematic, 1 - 1 / max(1.0, solution.misfit)),
+            view=np.array([float(self._camera.column(axis)), turn * self._camera.focal]),
+        )

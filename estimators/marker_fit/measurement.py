@@ -1,0 +1,80 @@
+"""What one frame says of the target, in the form that a filter takes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from estimators.poses import Array, wrap_angle
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class MarkerMeasurement:
+    """Bearing and yaw of the target, measured jointly in one frame.
+
+    Both are stated for one distance; `sensitivity` says how they follow another. The distance itself is not
+    measured, so the measurement holds for a whole line of poses: `innovation` compares it with the one that
+    a state implies, whatever its distance.
+
+    Attributes:
+        stamp: Of the frame [s].
+        bearing: Of the target's axis as seen from the camera, in the room [rad].
+        yaw: Of the target's own frame in the room [rad].
+        distance: From camera to axis for which bearing and yaw are stated [m].
+        covariance: (2, 2) of (bearing, yaw) at that distance [rad^2].
+        sensitivity: (2,) derivative of (bearing, yaw) by the distance [rad/m].
+        camera: x, y of the camera [m].
+        markers: How many markers were used.
+        false_colors: How many of them showed another marker's colour and were outvoted.
+        misfit: Reduced chi-square of the fit: near or below 1 for a clean view of the target.
+        quantised: Whether the frame has one sample a pixel. The error is then where the edges fall between
+            samples: the same view repeats it exactly, and averaging over frames does not shrink it.
+        systematic: Share of the variance that another frame of the same view repeats.
+        view: (2,) where the pixel grid lies on the target [px]: column of the axis, and turn of the
+            circumference nearest to the camera.
+    """
+
+    stamp: float
+    bearing: float
+    yaw: float
+    distance: float
+    covariance: Array
+    sensitivity: Array
+    camera: tuple[float, float]
+    markers: int
+    false_colors: int
+    misfit: float
+    quantised: bool
+    systematic: float
+    view: Array
+
+    def expected(self, x: float, y: float, yaw: float) -> tuple[Array, Array]:
+        """What this measurement would read for a target at x, y [m], yaw [rad], and its Jacobian.
+
+        Returns:
+            (bearing, yaw) (2,) [rad] and derivatives (2, 3) by x, y, yaw.
+        """
+        dx, dy = x - self.camera[0], y - self.camera[1]
+        d = math.hypot(dx, dy)
+        along = np.array([dx / d, dy / d, 0.0])
+        reading = np.array([math.atan2(dy, dx), yaw]) - self.sensitivity * (d - self.distance)
+        slopes = np.array([[-dy / d**2, dx / d**2, 0.0], [0.0, 0.0, 1.0]])
+        return reading, slopes - np.outer(self.sensitivity, along)
+
+    def innovation(self, x: float, y: float, yaw: float) -> tuple[Array, Array]:
+        """Measured less expected (2,) [rad], wrapped, and the Jacobian (2, 3) of what is expected."""
+        reading, slopes = self.expected(x, y, yaw)
+        return wrap_angle(np.array([self.bearing, self.yaw]) - reading), slopes
+
+    def correlation(self, earlier: MarkerMeasurement) -> float:
+        """How much of the error this frame shares with an earlier one, 0 ... 1.
+
+        Where the pixel grid lies on the target, and a model that is never quite true, give the same error for
+        the same view, and another one once the grid has moved by a pixel; pixel noise is new every time. A
+        filter must not take n frames of one view for n measurements. It can skip a frame whose correlation
+        with the last one used is near 1, or inflate the covariance of a frame by 1 / (1 - correlation).
+        """
+        moved = float(np.abs(self.view - earlier.view).max())
+        return self.systematic * max(0.0, 1.0 - moved) ** 2

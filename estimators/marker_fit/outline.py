@@ -1,0 +1,109 @@
+"""Where the target's edges fall in the image: tangents of the cylinder, and corners of the markers on it."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from estimators.calibration import TargetGeometry
+from estimators.poses import Array
+
+Flags = NDArray[np.bool_]
+
+
+class Outline(NamedTuple):
+    """Columns of all edges and how they follow bearing, yaw and distance.
+
+    Attributes:
+        limbs: (2,) left and right end of the cylinder [px].
+        limb_slopes: (2, 3) their derivatives [px/rad, px/rad, px/m].
+        markers: (K, 2) left and right end of each marker, as if nothing hid it [px].
+        marker_slopes: (K, 2, 3) their derivatives.
+        foot: (K, 2) how far that end moves if the cylinder's surface lies deeper [px/m]; 0 for corners.
+        seen: (K, 2) whether that end stands on the side of the cylinder that faces the camera.
+    """
+
+    limbs: Array
+    limb_slopes: Array
+    markers: Array
+    marker_slopes: Array
+    foot: Array
+    seen: Flags
+
+
+class TargetOutline:
+    """The target as a function of (bearing, yaw, distance), in columns of the straight image.
+
+    A marker is a box that stands `marker_protrusion` out of the cylinder: of each side one sees either the
+    outer corner or, where the side's own face is seen, the line in which it meets the cylinder.
+
+    Args:
+        target: Its geometry.
+        focal: Of the camera [px].
+    """
+
+    def __init__(self, target: TargetGeometry, focal: float) -> None:
+        self.radius = target.radius
+        self.focal = focal
+        self.angles = np.asarray(target.marker_angles, float)
+        half, face = 0.5 * target.marker_width, target.radius + target.marker_protrusion
+        outer, base = math.atan2(half, face), math.asin(min(1.0, half / target.radius))
+        # Columns: left side's outer corner and foot, right side's outer corner and foot. A larger angle is
+        # further to the right in the image.
+        self._turn = np.array([-outer, -base, outer, base])
+        self._reach = np.array([math.hypot(half, face), target.radius] * 2)
+
+    def at(self, axis: float, relative: float, distance: float) -> Outline:
+        """Edges and derivatives.
+
+        Args:
+            axis: Direction of the target's axis, counter-clockwise from the camera's axis of view [rad].
+            relative: Yaw of the target less the bearing of its axis [rad].
+            distance: From camera to the target's axis [m].
+        """
+        f, radius, d = self.focal, self.radius, distance
+        half = math.asin(radius / d)
+        spread = radius / (d * math.sqrt(d * d - radius * radius))
+        tangent = [math.tan(axis + half), math.tan(axis - half)]
+        scale = [-f * (1 + t * t) for t in tangent]
+        limbs = np.array([-f * tangent[0], -f * tangent[1]])
+        limb_slopes = np.array([[scale[0], 0.0, -scale[0] * spread], [scale[1], 0.0, scale[1] * spread]])
+
+        around = (relative + math.pi + self.angles)[:, None] + self._turn  # from the direction to the camera
+        sin, cos = self._reach * np.sin(around), self._reach * np.cos(around)
+        forward = d - cos
+        square = forward * forward + sin * sin
+        tan = np.tan(axis - np.arctan2(sin, forward))
+        columns = -f * tan
+        first = np.where(columns[:, 0] <= columns[:, 1], 0, 1)
+        second = np.where(columns[:, 2] >= columns[:, 3], 2, 3)
+        pick = np.stack([first, second], axis=1)
+        rows = np.arange(len(self.angles))[:, None]
+        tan, sin, cos, square = tan[rows, pick], sin[rows, pick], cos[rows, pick], square[rows, pick]
+        reach = self._reach[pick]
+        scaled = -f * (1 + tan * tan)
+        by_turn = scaled * (reach * reach - cos * d) / square
+        slopes = np.stack([scaled - by_turn, by_turn, scaled * sin / square], axis=-1)
+        foot = np.where(pick % 2 == 1, np.abs(sin) * f / (reach * d), 0.0)
+        # Beyond the tangent point (cos = radius / d for a point of the cylinder) an edge is hidden.
+        return Outline(limbs, limb_slopes, columns[rows, pick], slopes, foot, cos * d > reach * radius)
+
+    def widths(self, pose: Array) -> Array:
+        """Width (K,) [px] at which each marker is seen from a pose (bearing, yaw, distance)."""
+        edges = self.at(float(pose[0]), float(pose[1] - pose[0]), float(pose[2]))
+        return np.asarray(edges.markers[:, 1] - edges.markers[:, 0])
+
+    def turn_of(self, axis: float, columns: Array, distance: float) -> Array:
+        """Angle on the cylinder (N,) [rad], from the direction to the camera, of what columns (N,) show."""
+        right = axis + np.arctan(columns / self.focal)
+        return np.asarray(np.arcsin(np.clip(distance / self.radius * np.sin(right), -1, 1)) - right)
+
+    def centers(self, axis: float, relative: Array, distance: float) -> tuple[Array, Array]:
+        """Columns (N, K) [px] of the markers' middles for yaws (N,), and cosines of their obliqueness."""
+        around = relative[:, None] + math.pi + self.angles
+        sin, cos = self.radius * np.sin(around), self.radius * np.cos(around)
+        columns = -self.focal * np.tan(axis - np.arctan2(sin, distance - cos))
+        return columns, (cos - self.radius * self.radius / distance) / self.radius

@@ -1,0 +1,175 @@
+"""The least-squares problem of one frame: limbs and markers as functions of the target's pose."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from estimators.calibration import TargetGeometry
+from estimators.marker_fit.association import Association
+from estimators.marker_fit.outline import Outline, TargetOutline
+from estimators.marker_fit.profile import Profile
+from estimators.marker_fit.runs import MarkerRuns
+from estimators.marker_fit.silhouette import Silhouette
+from estimators.poses import Array
+
+MODEL_ERROR = 0.004
+"""Error of edges and shares of a perfect picture, standard deviation [px]: 8 bits a channel."""
+CENTROID_ERROR = 0.04
+"""Standard deviation of a marker's centroid there [px]."""
+MOST_MIXED = 0.2
+"""Where pixels average over their area most edges cut one; up to this share may seem to where they do not."""
+SAMPLED_SHAPE = 0.0006
+"""How far a renderer that samples draws facets off the cylinder's tangent, standard deviation [m]."""
+SAMPLED_ERROR = 12**-0.5
+"""Standard deviation of all three where a pixel is one sample: uniform over a pixel."""
+
+
+BLUR = 0.12
+"""Standard deviation of a share in a profile that was interpolated."""
+NOISE_AT_LIMB = 2.4
+"""How much more pixel noise moves a limb than a share: colours differ less there, over more pixels."""
+REACH = 2
+"""Pixels beside a patch that are compared, too."""
+FAINT = np.diag([1.0, 1.0, 0.0])
+"""Information that keeps a step finite where no pixel has a slope [1/rad^2]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Problem:
+    """What was measured.
+
+    Attributes:
+        limbs: (2,) left and right edge of the target [px].
+        columns: (m,) columns on the target in and beside these patches [px].
+        share: (m,) share of each that is marker.
+        markers: (N,) index of the marker of each patch used.
+        centers: (N,) centroids of these patches [px].
+        ends: (N, 2) columns of their first and last pixel [px].
+        inside: First and last column wholly on the target [px].
+        touching: (N,) whether a patch goes on beyond these.
+        quantised: Whether a pixel is one sample.
+        distance: Predicted distance [m].
+        distance_sigma: Its standard deviation [m].
+        shape_error: Standard deviation of the limbs, for the target's shape alone [px].
+        noise: Standard deviation of a share of the averaged rows, for pixel noise and blur alone.
+        model_error: Standard deviation of edges and shares without noise [px].
+    """
+
+    limbs: Array
+    columns: Array
+    share: Array
+    markers: NDArray[np.int64]
+    centers: Array
+    ends: Array
+    inside: tuple[float, float]
+    touching: NDArray[np.bool_]
+    quantised: bool
+    distance: float
+    distance_sigma: float
+    shape_error: float
+    noise: float
+    model_error: float
+
+    @property
+    def share_error(self) -> float:
+        """Standard deviation of a share."""
+        return SAMPLED_ERROR if self.quantised else math.hypot(self.model_error, self.noise)
+
+    @property
+    def systematic(self) -> float:
+        """Share of the variance that is not pixel noise."""
+        return 1.0 if self.quantised else (self.model_error / self.share_error) ** 2
+
+    @property
+    def limb_error(self) -> float:
+        """Standard deviation of a limb [px]."""
+        return (
+            math.hypot(SAMPLED_ERROR, self.shape_error)
+            if self.quantised
+            else math.hypot(self.model_error, NOISE_AT_LIMB * self.noise)
+        )
+
+    def limb_rows(self, outline: Outline) -> tuple[Array, Array]:
+        """Residuals (2,) and slopes (2, 3) of the limbs, in standard deviations."""
+        return (self.limbs - outline.limbs) / self.limb_error, outline.limb_slopes / self.limb_error
+
+    def prior_row(self, distance: float) -> tuple[Array, Array]:
+        """Residual (1,) and slopes (1, 3) of the predicted distance, in standard deviations."""
+        s = self.distance_sigma
+        return np.array([(self.distance - distance) / s]), np.array([[0.0, 0.0, 1 / s]])
+
+    def visible(self, outline: Outline) -> tuple[Array, Array]:
+        """Ends (N, 2) [px] of the used markers as far as they are seen, and slopes (N, 2, 3)."""
+        ends, slopes = outline.markers[self.markers], outline.marker_slopes[self.markers]
+        seen = outline.seen[self.markers]
+        # A hidden end is where the cylinder ends, on the same side.
+        side = (ends > outline.limbs.mean()).astype(int)
+        ends = np.where(seen, ends, outline.limbs[side])
+        return ends, np.where(seen[..., None], slopes, outline.limb_slopes[side])
+
+
+def pose_problem(
+    target: TargetGeometry,
+    silhouette: Silhouette,
+    runs: MarkerRuns,
+    found: Association,
+    distance: tuple[float, float],
+    focal: float,
+    profile: Profile,
+    model_error: float,
+) -> Problem:
+    """Put together what was found; distance as (mean, sigma) [m]."""
+    used = np.flatnonzero(found.markers >= 0)
+    swallowed = 1 - np.asarray(target.marker_colors, float) / 255
+    share = np.zeros(len(runs.columns))
+    near = np.zeros(len(share), bool)
+    bounds = np.concatenate([[0], (runs.ends[1:, 0] + runs.ends[:-1, 1] + 1) // 2, [len(share)]])
+    for i in used.tolist():
+        part = slice(int(bounds[i]), int(bounds[i + 1]))
+        hue = swallowed[found.markers[i]]
+        if float(runs.hues[i] @ hue) < 0.9 * float(np.sqrt(hue @ hue)):
+            hue = (runs.hues[i] > 0.4 * runs.hues[i].max()).astype(float)  # a false colour
+        near[max(int(runs.ends[i, 0]) - REACH, 1) : min(int(runs.ends[i, 1]) + REACH + 1, len(share) - 1)] = (
+            True
+        )
+        share[part] = runs.absorbed[part] @ (hue / float(hue @ hue))
+    return Problem(
+        limbs=np.array(silhouette.edges),
+        columns=runs.columns[near],
+        share=share[near],
+        markers=found.markers[used],
+        centers=runs.centers[used],
+        ends=runs.columns[runs.ends[used]],
+        inside=(float(runs.columns[0]), float(runs.columns[-1])),
+        touching=runs.touching[used],
+        quantised=silhouette.mixed + runs.mixed <= MOST_MIXED * (2 + 2 * int((~runs.touching).sum())),
+        distance=distance[0],
+        distance_sigma=distance[1],
+        shape_error=SAMPLED_SHAPE * focal / distance[0],
+        noise=math.hypot(silhouette.noise / math.sqrt(profile.rows), BLUR if profile.straightened else 0.0),
+        model_error=model_error,
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solution:
+    """Most probable pose in the camera's frame, with what is known of it.
+
+    Attributes:
+        pose: (3,) bearing of the axis from the axis of view, yaw in the camera's frame [rad], distance [m].
+        information: (3, 3) inverse covariance.
+        misfit: Reduced chi-square.
+    """
+
+    pose: Array
+    information: Array
+    misfit: float
+
+
+def outline_at(outline: TargetOutline, pose: Array) -> Outline:
+    """Edges for a pose (bearing, yaw, distance) in the camera's frame."""
+    return outline.at(float(pose[0]), float(pose[1] - pose[0]), float(pose[2]))

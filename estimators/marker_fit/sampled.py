@@ -1,0 +1,73 @@
+"""Frames with one sample a pixel: all poses that put every edge between its two samples."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from estimators.marker_fit.outline import TargetOutline
+from estimators.marker_fit.problem import Problem, Solution, outline_at
+from estimators.poses import Array
+
+SAMPLES = 2048
+SPREAD = 1.6
+"""Samples are drawn this much wider than the least-squares solution."""
+SOFTNESS = 0.03
+"""How far outside its pixel an edge may be, standard deviation [px]."""
+FOOT_SHAPE = 0.0008
+"""How much deeper such a renderer's facets lie where a marker's side meets the cylinder [m]."""
+WIDEST = 0.05
+"""Where yaw is known less well than this the edges are no straight functions of it [rad]."""
+FEWEST = 12.0
+"""Fewer effective samples than this and the least-squares solution stays."""
+RESOLUTION = 0.03
+"""What the samples themselves cannot resolve, as a share of the least-squares deviation."""
+
+_NORMAL = np.random.default_rng(4).standard_normal((SAMPLES // 2, 3))
+_DRAWS = np.concatenate([_NORMAL, -_NORMAL])
+_LOG_DRAWS = 0.5 * (_DRAWS**2).sum(axis=1)
+
+
+def feasible_poses(problem: Problem, outline: TargetOutline, start: Solution) -> Solution:
+    """Mean and information of the poses that agree with every single pixel.
+
+    An edge between a sample off the target and one on it lies anywhere between the two, all places alike:
+    the poses that put all edges right form a polygon, and its middle is nearer to the truth than any
+    least-squares fit. The polygon is sampled, around `start`, with the edges linearised there.
+    """
+    spread = np.linalg.inv(start.information)
+    if spread[1, 1] > WIDEST**2:
+        return start
+    edges = outline_at(outline, start.pose)
+    used = outline_rows(problem, edges.seen)
+    slopes = np.concatenate([edges.limb_slopes, edges.marker_slopes[problem.markers][used]])
+    at = np.concatenate([edges.limbs, edges.markers[problem.markers][used]])
+    middles = np.concatenate([problem.limbs, (problem.ends + np.array([-0.5, 0.5]))[used]])
+    factor = np.linalg.cholesky(spread) * SPREAD
+    shifts = _DRAWS @ factor.T
+    off = np.abs(shifts @ slopes.T + (at - middles)) - 0.5
+    feet = FOOT_SHAPE * edges.foot[problem.markers][used]
+    softness = np.hypot(SOFTNESS, np.concatenate([np.zeros(2), feet]))
+    softness[:2] = math.hypot(SOFTNESS, problem.shape_error)
+    outside = np.maximum(off, 0.0) / softness
+    # The prior of the distance is in the draws' own density already, but wider.
+    drift = (start.pose[2] + shifts[:, 2] - problem.distance) / problem.distance_sigma
+    log_weight = _LOG_DRAWS - 0.5 * np.einsum("ij,ij->i", outside, outside) - 0.5 * drift * drift
+    weight = np.exp(log_weight - log_weight.max())
+    weight /= weight.sum()
+    if 1 / float(weight @ weight) < FEWEST:
+        return start
+    mean = weight @ shifts
+    rest = shifts - mean
+    covariance = (rest * weight[:, None]).T @ rest + RESOLUTION**2 * spread
+    return Solution(start.pose + mean, np.linalg.inv(covariance), start.misfit)
+
+
+def outline_rows(problem: Problem, seen: np.ndarray) -> Array:
+    """Which ends (N, 2) of the used patches are ends of a marker rather than of the target."""
+    usable = seen[problem.markers].copy()
+    low, high = problem.inside
+    usable[:, 0] &= problem.ends[:, 0] > low
+    usable[:, 1] &= problem.ends[:, 1] < high
+    return np.asarray(usable)

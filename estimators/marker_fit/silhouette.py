@@ -1,0 +1,114 @@
+"""The two ends of the target in a profile, to a fraction of a pixel."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from estimators.marker_fit.profile import Floats, Profile
+from estimators.poses import Array
+
+COLORFUL = 0.20
+"""Tangent of the angle between a pixel's colour and the target's above which it is something else."""
+MOST_COLORFUL = 0.60
+"""Saturation above which the middle of what is seen cannot be the white target in any light."""
+DARKEST = 16.0
+"""Darkest target that can be told from anything [grey levels]."""
+LEAST_CONTRAST = 15.0
+"""Least difference in colour at an edge [grey levels]."""
+PURE = 0.06
+"""A pixel covered by less than this, or by more than the rest, counts as not cut by the edge."""
+
+
+class Silhouette(NamedTuple):
+    """Ends of the target.
+
+    Attributes:
+        edges: Left and right edge [px], straight columns.
+        mixed: How many of the two cut a pixel into two colours.
+        first: Index in the profile of the first column that is wholly target.
+        last: Index of the last one.
+        noise: Standard deviation of a pixel of the target, as a share of its brightness.
+    """
+
+    edges: tuple[float, float]
+    mixed: int
+    first: int
+    last: int
+    noise: float
+
+
+def find_silhouette(profile: Profile, expected: float) -> Silhouette | None:
+    """Find the target around the expected column of its axis [px].
+
+    Light of any colour makes white target a ray in colour space, on which shading only moves it up and down:
+    what lies off that ray is something else. A pixel that the edge cuts lies between, and how far between is
+    how much of it the target covers.
+
+    Returns:
+        None if what is there is not white, is cut off by the image, or looks like what is behind it.
+    """
+    plain = profile.plain
+    n = len(plain)
+    start = min(max(round(expected - float(profile.columns[0])), 2), n - 3)
+    light = np.median(plain[start - 2 : start + 3], axis=0).astype(float)
+    brightest = float(light.max())
+    if brightest < DARKEST or brightest - float(light.min()) > MOST_COLORFUL * brightest:
+        return None
+    unit = light / math.sqrt(float(light @ light))
+    along = plain @ unit.astype(np.float32)
+    square = np.einsum("ij,ij->i", plain, plain) - along * along
+    other = square > (COLORFUL * along) ** 2
+    left = np.flatnonzero(other[:start][::-1])
+    right = np.flatnonzero(other[start:])
+    if other[start] or not left.size or not right.size:
+        return None
+    first, last = start - int(left[0]), start + int(right[0]) - 1
+    if last - first < 2:
+        return None
+    a = _refine(plain, profile.plain_row, first, -1)
+    b = _refine(plain, profile.plain_row, last, +1)
+    if a is None or b is None:
+        return None
+    columns: Array = profile.columns
+    edges = (float(columns[0]) + a[0], float(columns[0]) + b[0])
+    return Silhouette(edges, a[1] + b[1], a[2], b[2], _noise(profile, a[2], b[2]) / brightest)
+
+
+def _noise(profile: Profile, first: int, last: int) -> float:
+    """Pixel noise [grey levels]: shading is smooth, so what bends from column to column is noise."""
+    inside = profile.plain_row[first : last + 1].astype(np.float32)
+    if len(inside) < 5:
+        return 0.0
+    bend = np.diff(inside, n=2, axis=0)
+    return float(np.median(np.abs(bend))) / (0.6745 * math.sqrt(6))
+
+
+def _refine(plain: Floats, row: NDArray[np.generic], at: int, out: int) -> tuple[float, int, int] | None:
+    """Edge near index `at`, where the target ends in the direction `out` (-1 or +1).
+
+    Returns:
+        Its place [columns from the first], whether it cuts a pixel, and the last index that is wholly target.
+    """
+    inner, outer = at - 2 * out, at + 3 * out
+    if min(inner, outer) < 0 or max(inner, outer) >= len(plain):
+        return None
+    white, behind = plain[inner].astype(float), plain[outer].astype(float)
+    unit = white / math.sqrt(float(white @ white))
+    step = behind - (behind @ unit) * unit
+    size = float(step @ step)
+    if size < LEAST_CONTRAST**2:
+        return None
+    nearby = slice(inner, outer) if out > 0 else slice(outer + 1, inner + 1)
+    # The colour of the light is what shading keeps; across it, target counts 1 and background 0.
+    cover = np.clip(1 - (plain[nearby] @ step)[::out] / size, 0, 1)
+    # Whatever the edge is blurred over, the sum of the shares is its place.
+    place = inner + out * (float(cover.sum()) - 0.5)
+    whole = inner + out * max(int((cover > 1 - PURE).cumprod().sum()) - 1, 0)
+    # Averaging rows also mixes colours, if the edge is not quite upright: one row tells how pixels are made.
+    single = 1 - (row[nearby] @ step) / size
+    mixed = int(bool(((single > PURE) & (single < 1 - PURE)).any()))
+    return place, mixed, whole

@@ -1,0 +1,114 @@
+"""Projection and outline: round trips, finite differences, and what is hidden."""
+
+import math
+
+import numpy as np
+import pytest
+
+from estimators import CameraCalibration, TargetGeometry
+from estimators.marker_fit import CameraModel
+from estimators.marker_fit.measurement import MarkerMeasurement
+from estimators.marker_fit.outline import TargetOutline
+
+BENT = CameraCalibration(distortion=(-0.12, 0.03), roll=math.radians(8), center_px=(160.0, 119.0))
+
+
+@pytest.mark.parametrize("calibration", [CameraCalibration(), BENT])
+def test_distortion_and_its_inverse_cancel(calibration):
+    model = CameraModel(calibration)
+    u, v = (g.astype(float).ravel() for g in np.meshgrid(np.arange(0, 320, 20), np.arange(0, 240, 20)))
+    again = model.distort(*model.straighten(u, v))
+    np.testing.assert_allclose(again, (u, v), atol=1e-4)
+
+
+def test_directions_and_columns_round_trip():
+    model = CameraModel(CameraCalibration())
+    angles = np.linspace(-0.3, 0.3, 7)
+    np.testing.assert_allclose(model.angle(model.column(angles)), angles, atol=1e-15)
+    assert model.column(0.1) < 0, "what lies to the left of the axis of view has smaller columns"
+
+
+def test_pixel_zero_has_its_middle_at_zero():
+    assert CameraModel(CameraCalibration()).center == (159.5, 119.5)
+
+
+def test_an_upright_edge_of_a_rolled_camera_becomes_one_column():
+    model = CameraModel(BENT)
+    a, b = np.full(9, 40.0), np.linspace(-80, 80, 9)
+    u, v = model.distort(a, b)
+    assert np.ptp(u) > 15, "else the test says nothing"
+    np.testing.assert_allclose(model.straighten(u, v)[0], a, atol=1e-4)
+
+
+@pytest.mark.parametrize("relative", np.linspace(-3, 3, 7))
+def test_outline_slopes_are_its_derivatives(relative):
+    outline = TargetOutline(TargetGeometry(), 454.0)
+    pose = np.array([0.05, 0.05 + relative, 2.1])
+    at = lambda p: outline.at(p[0], p[1] - p[0], p[2])  # noqa: E731
+    here = at(pose)
+    for i, step in enumerate((1e-6, 1e-6, 1e-6)):
+        shift = step * np.eye(3)[i]
+        ahead, behind = at(pose + shift), at(pose - shift)
+        np.testing.assert_allclose(
+            (ahead.limbs - behind.limbs) / (2 * step), here.limb_slopes[:, i], rtol=1e-5, atol=1e-4
+        )
+        np.testing.assert_allclose(
+            (ahead.markers - behind.markers) / (2 * step), here.marker_slopes[..., i], rtol=1e-5, atol=1e-4
+        )
+
+
+def test_limbs_are_tangents_not_chords():
+    outline = TargetOutline(TargetGeometry(radius=0.1), 1.0)
+    assert outline.at(0.0, 0.0, 0.5).limbs[1] == pytest.approx(math.tan(math.asin(0.1 / 0.5)))
+
+
+def test_a_marker_straight_ahead_shows_its_face_and_one_aside_also_its_inner_side():
+    target = TargetGeometry(marker_angles=(math.pi,), marker_colors=((255, 0, 0),))
+    outline = TargetOutline(target, 1000.0)
+    ahead = outline.at(0.0, 0.0, 1.0)
+    assert ahead.markers[0] == pytest.approx([-1000 * 0.005 / 0.8985, 1000 * 0.005 / 0.8985])
+    assert ahead.foot[0] == pytest.approx([0, 0])
+    aside = outline.at(0.0, 0.8, 1.0)  # turned counter-clockwise: the marker moves to the right in the image
+    assert aside.markers[0].min() > 0
+    assert aside.foot[0, 0] > 0 == aside.foot[0, 1]
+
+
+def test_markers_behind_are_not_seen():
+    outline = TargetOutline(TargetGeometry(marker_angles=(0.0,), marker_colors=((255, 0, 0),)), 454.0)
+    assert not outline.at(0.0, 0.0, 2.0).seen.any()
+
+
+@pytest.fixture
+def measurement():
+    return MarkerMeasurement(
+        stamp=0.0,
+        bearing=1.2,
+        yaw=0.4,
+        distance=2.0,
+        covariance=np.diag([1e-6, 1e-4]),
+        sensitivity=np.array([0.02, -0.3]),
+        camera=(0.0, 0.1),
+        markers=3,
+        false_colors=0,
+        misfit=0.5,
+        quantised=False,
+        systematic=0.5,
+        view=np.zeros(2),
+    )
+
+
+def test_jacobian_of_the_measurement_is_its_derivative(measurement):
+    state = np.array([0.7, 1.9, 0.4])
+    _, slopes = measurement.expected(*state)
+    for i in range(3):
+        shift = 1e-6 * np.eye(3)[i]
+        numeric = (
+            measurement.expected(*(state + shift))[0] - measurement.expected(*(state - shift))[0]
+        ) / 2e-6
+        np.testing.assert_allclose(numeric, slopes[:, i], atol=1e-8)
+
+
+def test_an_innovation_is_wrapped(measurement):
+    x, y = 2 * math.cos(1.2), 0.1 + 2 * math.sin(1.2)
+    residual, _ = measurement.innovation(x, y, 0.4 + 4 * math.pi)
+    np.testing.assert_allclose(residual, 0, atol=1e-12)
