@@ -27,7 +27,7 @@ app = typer.Typer(
 Command = Callable[..., None]
 
 
-class Interrupted(GtEnvError):
+class StoppedError(GtEnvError):
     """Ctrl-C while a command was at work."""
 
 
@@ -39,7 +39,7 @@ def _interruptible(command: Command) -> Command:
         try:
             command(*args, **kwargs)
         except KeyboardInterrupt:
-            raise Interrupted("interrupted: nothing was written") from None
+            raise StoppedError("interrupted: nothing was written") from None
 
     return run
 
@@ -54,7 +54,7 @@ def main() -> None:
     """Run the command line; an error of the domain is one line and exit status 1."""
     try:
         app()
-    except Interrupted as error:
+    except StoppedError as error:
         _fail(str(error), 130)
     except GtEnvError as error:
         _fail(str(error), 1)

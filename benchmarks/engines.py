@@ -1,10 +1,11 @@
-"""Where runs are carried out: on this machine's cores, or on an existing cluster, through joblib's backends."""
+"""Where runs are carried out: on this machine's cores, or on an existing cluster."""
 
 from __future__ import annotations
 
 import importlib
 import logging
 import os
+import secrets
 import socket
 import subprocess
 import sys
@@ -48,7 +49,9 @@ class Engine:
         if self.name not in ENGINES:
             raise ConfigError(f"--engine {self.name}: must be one of {', '.join(ENGINES)}")
         if self.name == "loky" and self.address is not None:
-            raise ConfigError(f"--address {self.address}: only for --engine ray or dask, loky uses this machine")
+            raise ConfigError(
+                f"--address {self.address}: only for --engine ray or dask, loky uses this machine"
+            )
         package = ENGINES[self.name]
         if package and find_spec(package) is None:
             raise MissingExtraError(f"--engine {self.name}", package, "cluster")
@@ -56,7 +59,7 @@ class Engine:
 
 @contextmanager
 def running(engine: Engine, jobs: int) -> Iterator[None]:
-    """Inside, joblib sends its tasks to the engine, `jobs` at a time.
+    """Inside, tasks go to the engine, `jobs` at a time: joblib's, or those of dask's present client.
 
     Raises:
         ClusterError: If the cluster does not answer in time.
@@ -81,7 +84,10 @@ def _ray(address: str | None, jobs: int) -> Iterator[None]:
     importlib.import_module("ray.util.joblib").register_ray()
     mine = not ray.is_initialized()
     if mine:
-        os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")  # a cluster of ours reports to nobody
+        if address is None:
+            # A cluster of ours reports to nobody, and leaves no token in the user's home.
+            os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
+            os.environ.setdefault("RAY_AUTH_TOKEN", secrets.token_hex(32))
         local = {"num_cpus": jobs, "include_dashboard": False}
         where = local if address is None else {"address": address}
         ray.init(**where, log_to_driver=False, logging_level="ERROR")
@@ -103,7 +109,7 @@ def _dask(address: str | None, jobs: int) -> Iterator[None]:
     else:
         _ask("dask", address)
         client = distributed.Client(address, timeout=PATIENCE)
-    with client, parallel_config(backend="dask", n_jobs=jobs):
+    with client:
         yield
 
 
@@ -136,8 +142,11 @@ def _knock(engine: str, address: str) -> None:
     except TimeoutError:
         raise _silent(engine, address) from None
     except OSError as error:
-        raise ClusterError(f"--address {address}: no {engine} cluster there: {error.strerror or error}") from None
+        raise ClusterError(
+            f"--address {address}: no {engine} cluster there: {error.strerror or error}"
+        ) from None
 
 
 def _silent(engine: str, address: str) -> ClusterError:
-    return ClusterError(f"--address {address}: no {engine} cluster answered within {PATIENCE:g} s")
+    hint = "; one that asks for a token needs RAY_AUTH_MODE=token here" if engine == "ray" else ""
+    return ClusterError(f"--address {address}: no {engine} cluster answered within {PATIENCE:g} s{hint}")

@@ -6,7 +6,7 @@ import tempfile
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final, TypeVar
+from typing import Any, Final, TypeVar, cast
 
 import numpy as np
 from joblib import Parallel, delayed
@@ -20,11 +20,14 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
+from benchmarks.dask_runs import completed
 from benchmarks.engines import Engine, running
 from estimators.errors import GtEnvError
 
-RETURNS: Final = {"loky": "generator_unordered", "dask": "generator_unordered", "ray": "list"}
-"""How results come back: as soon as they are there, where the engine can."""
+RETURNS: Final = {"loky": "generator_unordered", "ray": "list"}
+"""How results come back from joblib: as soon as they are there, where the engine can."""
+NAMED: Final = 5
+"""How many failures a message lists."""
 Task = TypeVar("Task")
 Result = TypeVar("Result")
 
@@ -64,7 +67,8 @@ class SweepError(GtEnvError):
     """
 
     def __init__(self, failures: Sequence[Failure], results: Sequence[Any]) -> None:
-        said = "; ".join(f"{failure.task}: {failure.reason}" for failure in failures)
+        said = "; ".join(f"{failure.task}: {failure.reason}" for failure in failures[:NAMED])
+        said += f"; and {len(failures) - NAMED} more" if len(failures) > NAMED else ""
         super().__init__(f"{len(failures)} of {len(results)} runs failed: {said}")
         self.failures = tuple(failures)
         self.results = list(results)
@@ -110,7 +114,9 @@ def run_side_by_side(
                 bar.started(steps[i], jobs)
                 return delayed(_run)(function, tasks[i], path, i)
 
-            outcomes = _outcomes(call, order, engine)
+            outcomes = (
+                _dask_outcomes(call, order, jobs) if engine.name == "dask" else _outcomes(call, order, engine)
+            )
     results = [None if isinstance(outcomes[i], _Raised) else outcomes[i] for i in range(len(tasks))]
     failures = [
         Failure(task=names[i] if names else f"run {i + 1}", reason=outcome.reason)
@@ -119,7 +125,7 @@ def run_side_by_side(
     ]
     if failures:
         raise SweepError(failures, results)
-    return results
+    return cast(list[Result], results)
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,13 +149,22 @@ def _outcomes(call: Callable[[int], Any], order: Sequence[int], engine: Engine) 
     except Exception as error:
         left = [i for i in order if i not in outcomes]
         if len(left) == 1 and len(order) == 1:
-            outcomes[left[0]] = _Raised(f"its process died ({type(error).__name__})")
+            outcomes[left[0]] = _died(error)
             return outcomes
         half = (len(left) + 1) // 2
         for part in (left[:half], left[half:]):
             if part:
                 outcomes |= _outcomes(call, part, engine)
     return outcomes
+
+
+def _dask_outcomes(call: Callable[[int], Any], order: Sequence[int], jobs: int) -> dict[int, Any]:
+    found = completed(call, order, jobs)
+    return {i: _died(error) if error else result[1] for i, result, error in found}
+
+
+def _died(error: Exception) -> _Raised:
+    return _Raised(f"its process died ({type(error).__name__})")
 
 
 def _run(

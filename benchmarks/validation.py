@@ -8,10 +8,10 @@ import numpy as np
 from rich.console import Console
 
 from benchmarks.driving import DRIVES
+from benchmarks.engines import Engine
 from benchmarks.experiments.moving import moving_runs
 from benchmarks.experiments.run import Run, simulate
 from benchmarks.experiments.static import static_runs
-from benchmarks.engines import Engine
 from benchmarks.parallel import SweepError, run_side_by_side
 from benchmarks.published import SAMPLES
 from benchmarks.rollout import Rollout, joined
@@ -74,9 +74,7 @@ def plan_validation(config: EnvConfig, methods: tuple[str, ...], *, seed: int, q
     )
 
 
-def run_validation(
-    plan: Plan, *, jobs: int, console: Console, engine: Engine | None = None
-) -> Validation:
+def run_validation(plan: Plan, *, jobs: int, console: Console, engine: Engine | None = None) -> Validation:
     """Simulate everything that was planned; the result depends neither on `jobs` nor on the engine.
 
     Raises:

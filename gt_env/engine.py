@@ -21,6 +21,10 @@ from estimators.errors import ConfigError, MissingExtraError
 from estimators.poses import Array
 from gt_env.config.sections import Color, LightConfig, PhysicsConfig
 
+CONTACT_DISTANCE = 2e-5
+"""How far apart two things may be and still be kept in contact [m]. With the engine's own value, a thousand times
+as much, a rolling wheel drags points along that it left behind: twice the work, and odometry ten times worse."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class View:
@@ -77,6 +81,7 @@ class Engine:
             numSolverIterations=self._physics.solver_iterations,
             deterministicOverlappingPairs=1,
             contactSlop=0.0,
+            contactBreakingThreshold=CONTACT_DISTANCE,
             physicsClientId=client,
         )
 
@@ -269,6 +274,10 @@ class Engine:
         return int(p.createMultiBody(0, collision, visual, list(centre), turn, physicsClientId=client))
 
 
+State = tuple[tuple[float, float, float], tuple[float, float, float, float]]
+"""Position of a body's centre of mass and its quaternion, as the engine gives them."""
+
+
 class Body:
     """A robot in the engine: where its base is, and its wheels."""
 
@@ -290,9 +299,16 @@ class Body:
 
     def pose(self) -> tuple[float, float, float]:
         """x, y [m], yaw [rad] of the base frame."""
-        (x, y, _), (qx, qy, qz, qw) = self._p.getBasePositionAndOrientation(
-            self.number, physicsClientId=self._client
-        )
+        return self.pose_of(self.state())
+
+    def state(self) -> State:
+        """Where the body is, as the engine says it; `pose_of` turns it into a pose."""
+        state: State = self._p.getBasePositionAndOrientation(self.number, physicsClientId=self._client)
+        return state
+
+    def pose_of(self, state: State) -> tuple[float, float, float]:
+        """x, y [m], yaw [rad] of the base frame in a state."""
+        (x, y, _), (qx, qy, qz, qw) = state
         yaw = math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
         c, s = math.cos(yaw), math.sin(yaw)
         dx, dy, _ = self._com

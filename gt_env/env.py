@@ -149,7 +149,7 @@ class ArenaEnv(gym.Env[Observation, Array]):
     @property
     def truth(self) -> list[tuple[float, float, float, float]]:
         """True t [s], x, y [m], yaw [rad] at every physics tick since the last step."""
-        return list(self._world.truth)
+        return self._world.truth
 
     def show_estimate(self, name: str, estimate: PoseEstimate) -> None:
         """Have an estimate drawn in the rendered pictures; wrappers call it after every step."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from estimators.poses import Array, Pose2
 from gt_env.config import EnvConfig
-from gt_env.engine import Engine
+from gt_env.engine import Engine, State
 from gt_env.robot_model import WHEEL_JOINTS, differential_robot
 
 INTEGRAL_GAIN = 0.3
@@ -42,20 +42,28 @@ class DifferentialRobot:
         self._goal = (self._config.max_wheel_speed * action).tolist()
         if at_rest and not self._at_rest:
             self._body.may_sleep(False)
+        self._forget_lag()
 
     def ramp(self) -> None:
         """Bring the motors one tick nearer to the commanded speeds."""
         if self._at_rest:
             return
-        # Plain numbers: for two wheels, every tick, arrays would take as long as reading their angles.
+        # Plain numbers: for two wheels, every tick, arrays would take as long as the engine itself.
         most = self._config.max_wheel_acceleration * self._tick
-        for i, actual in enumerate(self._body.wheel_angles()):
-            self._speeds[i] += _within(self._goal[i] - self._speeds[i], most)
-            lag = self._angles[i] + self._speeds[i] * self._tick - actual
-            self._angles[i] = actual + _within(lag, INTEGRAL_LIMIT)
+        for i, goal in enumerate(self._goal):
+            speed = self._speeds[i]
+            if speed != goal:
+                speed = self._speeds[i] = speed + min(max(goal - speed, -most), most)
+            self._angles[i] += speed * self._tick
         self._command()
         if self._at_rest:
             self._body.may_sleep(True)
+
+    def _forget_lag(self) -> None:
+        """Keep the controller from storing up, over a step against a wall, more lag than its limit."""
+        for i, actual in enumerate(self._body.wheel_angles()):
+            lag = self._angles[i] - actual
+            self._angles[i] = actual + min(max(lag, -INTEGRAL_LIMIT), INTEGRAL_LIMIT)
 
     @property
     def _at_rest(self) -> bool:
@@ -68,6 +76,14 @@ class DifferentialRobot:
         """True x, y [m], yaw [rad] of the base."""
         return self._body.pose()
 
+    def state(self) -> State:
+        """The base's state as the engine says it."""
+        return self._body.state()
+
+    def pose_of(self, state: State) -> tuple[float, float, float]:
+        """x, y [m], yaw [rad] of the base in a state."""
+        return self._body.pose_of(state)
+
     def wheel_angles(self) -> list[float]:
         """True angles of the wheels [rad], left and right."""
         return self._body.wheel_angles()
@@ -75,7 +91,3 @@ class DifferentialRobot:
     def touches(self, bodies: list[int]) -> bool:
         """Whether it is in contact with one of these bodies."""
         return any(self._body.touches(b) for b in bodies)
-
-
-def _within(value: float, limit: float) -> float:
-    return min(max(value, -limit), limit)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 
 import numpy as np
 from gymnasium import spaces
@@ -12,7 +13,7 @@ from estimators.messages import Message
 from estimators.poses import Pose2
 from estimators.thesis import ThesisTracker
 from gt_env.config import EnvConfig
-from gt_env.engine import Engine, View
+from gt_env.engine import Engine, State
 from gt_env.robot import DifferentialRobot
 from gt_env.scene import build_scene
 from gt_env.sensors.camera import Camera
@@ -20,9 +21,7 @@ from gt_env.sensors.encoders import WheelEncoders
 from gt_env.sensors.lrf import LaserRangefinder, RobotPose
 from gt_env.sensors.pan_unit import PanUnit
 from gt_env.sensors.ranging import make_ranging
-
-STILL = 1e-5
-"""A movement that no picture shows [m, rad]."""
+from gt_env.sensors.rendering import Instant, make_rendering, target_middle
 
 
 class World:
@@ -36,7 +35,6 @@ class World:
         pan: Its pan unit.
         encoders: The robot's wheel encoders.
         delivered: Messages since the last `advance` began, in the order of delivery.
-        truth: True t [s], x, y [m], yaw [rad] at every tick since then.
     """
 
     def __init__(self, config: EnvConfig) -> None:
@@ -46,7 +44,8 @@ class World:
         self.room = config.room.in_station_frame()
         self.robot = DifferentialRobot(config)
         self.lrf = LaserRangefinder(config.lrf, believed.lrf, make_ranging(config, self.engine))
-        self.camera = Camera(config.camera, self._camera_picture)
+        self.camera = Camera(config.camera)
+        self._rendering = make_rendering(config, self.engine)
         self.pan = PanUnit(config.pan, config.timing.tick)
         self.encoders = WheelEncoders(config.robot, self.robot.wheels)
         self._tracker = ThesisTracker(believed.calibration(), math.radians(config.pan.dead_zone_deg))
@@ -56,16 +55,24 @@ class World:
             "encoders": config.ticks(1 / config.robot.encoder_rate),
             "tracker": config.ticks(1 / config.pan.control_rate),
         }
+        # Ticks between which nothing is due; a sweep or an exposure follows the robot through all of them.
+        follows = config.lrf.sweep_time > 0 or config.camera.exposure_time > 0
+        self._busy = 1 if follows else math.gcd(*self._every.values())
         self.delivered: list[Message] = []
-        self.truth: list[tuple[float, float, float, float]] = []
+        self._states: list[tuple[float, State]] = []
         self._tick = 0
-        self._picture: NDArray[np.uint8] | None = None
-        self._pictured = np.empty(0)
+        # As far back as an exposure reaches.
+        self._past: deque[Instant] = deque(maxlen=1 + config.ticks(config.camera.exposure_time))
 
     @property
     def time(self) -> float:
         """Time since the start of the episode [s]."""
         return self._tick * self.config.timing.tick
+
+    @property
+    def truth(self) -> list[tuple[float, float, float, float]]:
+        """True t [s], x, y [m], yaw [rad] at every tick since the last `advance` began."""
+        return [(t, *self.robot.pose_of(state)) for t, state in self._states]
 
     def spaces(self) -> dict[str, spaces.Space[NDArray[np.generic]]]:
         """Spaces of the observation's parts, by key."""
@@ -96,21 +103,24 @@ class World:
         self.pan.reset()
         self._tracker.reset()
         self._tick = 0
-        self._picture = None
+        self._rendering.reset()
+        self._past.clear()
         self.delivered.clear()
-        self.truth.clear()
+        self._states[:] = [(0.0, self.robot.state())]
         self._measure()
 
     def advance(self, ticks: int) -> None:
         """Let time pass."""
         self.delivered.clear()
-        self.truth.clear()
+        self._states.clear()
         for _ in range(ticks):
             self.robot.ramp()
             self.engine.step()
             self.pan.advance()
             self._tick += 1
-            self._measure()
+            self._states.append((self.time, self.robot.state()))
+            if self._tick % self._busy == 0:
+                self._measure()
 
     def observe(self) -> dict[str, NDArray[np.generic]]:
         """The last value of every sensor that is on, in fresh arrays."""
@@ -141,13 +151,12 @@ class World:
         """Let every sensor that is due at this tick measure, and the tracker turn the camera."""
         t = self.time
         pose = self.robot.pose()
-        self.truth.append((t, *pose))
         if self.config.lrf.enabled:
             self._scan(t, pose)
         if self._due("tracker"):
             self._track(t)
-        if self.config.camera.enabled and self._due("camera"):
-            self.delivered.append(self.camera.measure(t, self.pan.direction, self.pan.encoder))
+        if self.config.camera.enabled:
+            self._shoot(t, pose)
         if self._due("encoders"):
             self.delivered.append(self.encoders.measure(t, self.robot.wheel_angles()))
 
@@ -171,33 +180,12 @@ class World:
         else:
             self.pan.command(angle)
 
-    def _camera_picture(self, direction: float) -> NDArray[np.uint8]:
-        # A scene at rest is not rendered again; what it may have moved is below a hundredth of a pixel.
-        state = np.array([direction, *self.robot.pose(), *self.robot.wheel_angles()])
-        if self._picture is None or np.abs(state - self._pictured).max() > STILL:
-            self._picture = self.engine.picture(
-                self._camera_view(direction), self.config.light, self.target_middle()
-            )
-            self._pictured = state
-        return self._picture.copy()
-
-    def _camera_view(self, direction: float) -> View:
-        c = self.config.camera
-        x, y, z = c.position
-        return View(
-            eye=c.position,
-            look_at=(x + math.cos(direction), y + math.sin(direction), z),
-            fov_deg=c.fov_deg,
-            width=c.width,
-            height=c.height,
-            near=c.near,
-            far=c.far,
-        )
+    def _shoot(self, t: float, pose: RobotPose) -> None:
+        now = Instant(*pose, self.pan.direction)
+        self._past.append(now)
+        if self._due("camera"):
+            self.delivered.append(self.camera.measure(t, self._rendering.shoot(self._past), self.pan.encoder))
 
     def target_middle(self) -> tuple[float, float, float]:
         """x, y, z of the target's true middle [m]."""
-        x, y, yaw = self.robot.pose()
-        target = Pose2(x=x, y=y, yaw=yaw) @ Pose2(
-            x=self.config.target.mount[0], y=self.config.target.mount[1]
-        )
-        return target.x, target.y, 0.5 * (self.config.target.z_min + self.config.target.z_max)
+        return target_middle(self.config, self.robot.pose())

@@ -17,7 +17,9 @@ ConfigOption = Annotated[
 ]
 SetOption = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="KEY=VALUE", help="A value over the configuration, e.g. lrf.noise_sigma=0.01."),
+    typer.Option(
+        "--set", metavar="KEY=VALUE", help="A value over the configuration, e.g. lrf.noise_sigma=0.01."
+    ),
 ]
 SeedOption = Annotated[int, typer.Option("--seed", min=0, help="Seed of all randomness.")]
 OutOption = Annotated[

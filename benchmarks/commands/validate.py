@@ -34,6 +34,10 @@ MethodOption = Annotated[
 NoFiguresOption = Annotated[
     bool, typer.Option("--no-figures", help="Write report.json only; needs no plotting packages.")
 ]
+CamerasOption = Annotated[
+    bool,
+    typer.Option("--cameras", help="Also put renderers, lenses, resolutions and shadows side by side."),
+]
 
 
 def validate(
@@ -47,8 +51,11 @@ def validate(
     method: MethodOption = None,
     out: OutOption = Path("out/validate"),
     no_figures: NoFiguresOption = False,
+    cameras: CamerasOption = False,
 ) -> None:
     """Repeat the thesis's validation: seven static points and three drives, beside its published numbers."""
+    from benchmarks.cameras import plan_cameras, run_cameras
+    from benchmarks.report.cameras import camera_tables
     from benchmarks.report.scores import score_validation
     from benchmarks.report.setup import describe, validate_command
     from benchmarks.report.tables import all_tables
@@ -63,22 +70,28 @@ def validate(
         _require_report_extra()
     check_writable(out)
     plan = plan_validation(settings, methods, seed=seed, quick=quick)
+    camera_plan = plan_cameras(settings, methods, seed=seed, quick=quick) if cameras else None
     watched_arena(settings, methods).close()  # what is wrong with the set-up is said here, not by a worker
     console = Console()
     validation = run_validation(plan, jobs=jobs, console=console, engine=place)
+    compared = None
+    if camera_plan is not None and validation.failed is None:
+        compared = run_cameras(camera_plan, jobs=jobs, console=console, engine=place)
+    failed = validation.failed or (compared.failed if compared else None)
     scores = score_validation(validation)
-    setup = describe(plan, validate_command(config, overrides or [], seed, methods, quick=quick))
-    if validation.failed is not None:
+    command = validate_command(config, overrides or [], seed, methods, quick=quick, cameras=cameras)
+    setup = describe(plan, command)
+    if failed is not None:
         # What was simulated is kept; the tables and figures want all of it.
-        setup["failed"] = {failure.task: failure.reason for failure in validation.failed.failures}
+        setup["failed"] = {failure.task: failure.reason for failure in failed.failures}
         with staged(out) as folder:
-            write_numbers(folder, scores, setup)
-        raise validation.failed
-    tables = all_tables(scores)
+            write_numbers(folder, scores, setup, compared)
+        raise failed
+    tables = all_tables(scores) + (camera_tables(compared) if compared else [])
     with staged(out) as folder:
-        report = write_numbers(folder, scores, setup)
+        report = write_numbers(folder, scores, setup, compared)
         if not no_figures:
-            report = write_page(folder, validation, scores, tables, setup, console)
+            report = write_page(folder, validation, scores, tables, setup, console, compared)
     for table in tables:
         console.print(rich_table(table))
     console.print(str(out / report), soft_wrap=True, highlight=False, markup=False)

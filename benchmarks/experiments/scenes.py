@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import gymnasium as gym
 import numpy as np
 
 from benchmarks.driving import into_room
@@ -53,8 +54,7 @@ def scenes(config: EnvConfig, seed: int) -> dict[str, Scene]:
         for name, pose in poses.items():
             if pose_problem(config, room, pose):
                 continue  # in a room of another shape the pose may lie in a corner; the figure is left out
-            env.reset(seed=seed, options={"pose": tuple(pose)})
-            found[name] = _observe(env.unwrapped, pose)
+            found[name] = scene_at(env, pose, seed)
         return found
     finally:
         env.close()
@@ -71,7 +71,10 @@ def touching_wall(config: EnvConfig) -> Pose2:
     return target @ mount.inverse()
 
 
-def _observe(base: Any, pose: Pose2) -> Scene:
+def scene_at(env: gym.Env[Any, Any], pose: Pose2, seed: int) -> Scene:
+    """What the station measures of a robot that an episode of an arena starts with."""
+    env.reset(seed=seed, options={"pose": tuple(pose)})
+    base: Any = env.unwrapped
     scan = frame = None
     for message in base.measurements:
         if isinstance(message, LaserScan):

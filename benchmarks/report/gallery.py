@@ -9,7 +9,7 @@ from functools import partial
 from matplotlib.figure import Figure
 
 from benchmarks.experiments.scenes import Scene
-from benchmarks.experiments.static import static_points
+from benchmarks.experiments.static import PLACEMENTS, static_points
 from benchmarks.figures.accuracy import accuracy_figure
 from benchmarks.figures.drives import map_figure, spin_figure, time_figure
 from benchmarks.figures.frame import frame_figure
@@ -123,8 +123,8 @@ def _static_plates(validation: Validation) -> Iterator[Plate]:
             name=f"histogram-{point}",
             section="static",
             repeats=f"5.{number}",
-            caption=f"Distribution of {len(rollout.t)} estimates at {point}; dashed, the mean that table 5.2 "
-            "prints.",
+            caption=f"Distribution of {len(rollout.t)} estimates at {point} in {PLACEMENTS} placements, each "
+            "with a raster of pixels of its own; dashed, the mean that table 5.2 prints for its one.",
             draw=partial(histogram_figure, point, points[point], rollout.tracks, THESIS[point]),
         )
 

@@ -20,6 +20,7 @@ SECTIONS = {
     "station": "What the station measures",
     "static": "Static target",
     "moving": "Moving target",
+    "cameras": "What the camera brings",
 }
 
 

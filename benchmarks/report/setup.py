@@ -37,7 +37,13 @@ def versions() -> dict[str, str]:
 
 
 def validate_command(
-    config: str, overrides: list[str], seed: int, methods: tuple[str, ...], *, quick: bool
+    config: str,
+    overrides: list[str],
+    seed: int,
+    methods: tuple[str, ...],
+    *,
+    quick: bool,
+    cameras: bool = False,
 ) -> str:
     """The command line that makes the same report again."""
     words = ["gt-env", "validate", "--config", config]
@@ -46,4 +52,5 @@ def validate_command(
     words += ["--seed", str(seed)]
     for method in methods:
         words += ["--method", method]
-    return shlex.join(words + (["--quick"] if quick else []))
+    words += ["--quick"] * quick + ["--cameras"] * cameras
+    return shlex.join(words)

@@ -9,8 +9,8 @@ from benchmarks.metrics import Score
 from benchmarks.report.scores import DEGREES, MM, TO_ERROR_UNITS, TO_POSE_UNITS, Scores, scaled, times
 
 
-def report_json(scores: Scores, setup: dict[str, Any]) -> str:
-    """Strict JSON: `setup`, `static` by method and point, `moving` by drive and method.
+def report_json(scores: Scores, setup: dict[str, Any], cameras: dict[str, Any] | None = None) -> str:
+    """Strict JSON: `setup`, `static` by method and point, `moving` by drive and method, perhaps `cameras`.
 
     `mean`, `std`, `mode` are x, y, yaw in [m, m, deg]; `mae` in [mm, mm, deg]; `valid` is a share of the
     samples; `nees` is null where a method states no covariance, any number where nothing valid was said.
@@ -21,6 +21,8 @@ def report_json(scores: Scores, setup: dict[str, Any]) -> str:
         "static": {method: _static(scores, method) for method in scores.methods},
         "moving": {d: {m: _moving(scores.moving[m][d]) for m in scores.methods} for d in drives},
     }
+    if cameras is not None:
+        report["cameras"] = cameras
     return json.dumps(report, indent=2, allow_nan=False) + "\n"
 
 

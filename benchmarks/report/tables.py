@@ -23,6 +23,7 @@ class Table:
         published: Columns that hold what others published.
         last_is_total: Whether the last row sums the others up.
         note: Below the table.
+        section: Of the page.
     """
 
     title: str
@@ -31,6 +32,7 @@ class Table:
     published: frozenset[int] = frozenset()
     last_is_total: bool = False
     note: str = ""
+    section: str = "results"
 
 
 def all_tables(scores: Scores) -> list[Table]:
@@ -81,15 +83,15 @@ def moving_table(scores: Scores) -> Table:
             rows.append(
                 (
                     drive if len(scores.methods) == 1 else f"{drive}, {method}",
-                    _number(times(score.largest[0], MM), 0),
-                    _number(times(printed.max_x, MM), 0),
-                    _number(times(score.largest[1], MM), 0),
-                    _number(times(printed.max_y, MM), 0),
-                    _number(times(score.largest[2], DEGREES), 1),
-                    _number(times(printed.max_yaw, DEGREES), 1),
-                    _number(times(score.max_xy, MM), 0),
-                    _number(times(score.rmse_xy, MM), 1),
-                    _number(times(score.mae[2], DEGREES), 2),
+                    number(times(score.largest[0], MM), 0),
+                    number(times(printed.max_x, MM), 0),
+                    number(times(score.largest[1], MM), 0),
+                    number(times(printed.max_y, MM), 0),
+                    number(times(score.largest[2], DEGREES), 1),
+                    number(times(printed.max_yaw, DEGREES), 1),
+                    number(times(score.max_xy, MM), 0),
+                    number(times(score.rmse_xy, MM), 1),
+                    number(times(score.mae[2], DEGREES), 2),
                 )
             )
     return Table(
@@ -117,12 +119,12 @@ def accuracy_table(scores: Scores) -> Table:
     rows = []
     for method in scores.methods:
         x, y, yaw = scaled(scores.static_mae(method), TO_ERROR_UNITS)
-        rows.append((f"this system, {method}", _number(x, 1), _number(y, 1), _number(yaw, 2), "MAE, static"))
+        rows.append((f"this system, {method}", number(x, 1), number(y, 1), number(yaw, 2), "MAE, static"))
     x, y, yaw = thesis_average_mae()
-    rows.append(("the thesis (5.1)", _number(x * MM, 1), _number(y * MM, 1), _number(yaw, 2), "MAE, static"))
+    rows.append(("the thesis (5.1)", number(x * MM, 1), number(y * MM, 1), number(yaw, 2), "MAE, static"))
     for sheet in DATA_SHEETS:
-        position = _number(sheet.position * MM, 0)
-        rows.append((sheet.device, position, position, _number(times(sheet.yaw, DEGREES), 2), sheet.note))
+        position = number(sheet.position * MM, 0)
+        rows.append((sheet.device, position, position, number(times(sheet.yaw, DEGREES), 2), sheet.note))
     return Table(
         title="Accuracy beside data sheets (2.2.1)",
         head=("system", "x [mm]", "y [mm]", "angle [deg]", "what"),
@@ -175,8 +177,8 @@ def _per_point(
     for point, row in (THESIS | (extra or {})).items():
         theirs, cells = printed(row), [point]
         for i in range(3):
-            cells += [_number(ours[m][point][i], decimals[i]) for m in methods]
-            cells.append(_number(theirs[i], decimals[i]))
+            cells += [number(ours[m][point][i], decimals[i]) for m in methods]
+            cells.append(number(theirs[i], decimals[i]))
         rows.append(tuple(cells))
     return Table(
         title=title,
@@ -192,7 +194,8 @@ def _signed(values: Sequence[float]) -> Triple:
     return values[0], values[1], wrap_angle(values[2] / DEGREES) * DEGREES
 
 
-def _number(value: float | None, decimals: int) -> str:
+def number(value: float | None, decimals: int) -> str:
+    """A cell with so many decimals; `NONE` for nothing."""
     if value is None:
         return NONE
     text = f"{value:.{decimals}f}"

@@ -7,15 +7,20 @@ from typing import Any
 
 from rich.console import Console
 
+from benchmarks.cameras import CameraScores
+from benchmarks.report.cameras import cameras_json
 from benchmarks.report.scores import Scores
 from benchmarks.report.summary import report_json
 from benchmarks.report.tables import Table
 from benchmarks.validation import Validation
 
 
-def write_numbers(folder: Path, scores: Scores, setup: dict[str, Any]) -> str:
+def write_numbers(
+    folder: Path, scores: Scores, setup: dict[str, Any], cameras: CameraScores | None = None
+) -> str:
     """Write `report.json`; returns its name."""
-    (folder / "report.json").write_text(report_json(scores, setup), encoding="utf-8")
+    compared = None if cameras is None else cameras_json(cameras)
+    (folder / "report.json").write_text(report_json(scores, setup, compared), encoding="utf-8")
     return "report.json"
 
 
@@ -26,14 +31,20 @@ def write_page(
     tables: list[Table],
     setup: dict[str, Any],
     console: Console,
+    cameras: CameraScores | None = None,
 ) -> str:
     """Write the figures and `report.html`; returns the page's name. Needs the extra `report`."""
+    from benchmarks.experiments.cameras import camera_scenes
     from benchmarks.experiments.scenes import scenes
     from benchmarks.figures.style import paper, save_png
+    from benchmarks.report.camera_gallery import camera_plates
     from benchmarks.report.gallery import plates
     from benchmarks.report.page import html_page
 
-    shown = list(plates(validation, scores, scenes(validation.plan.config, validation.plan.seed)))
+    config, seed = validation.plan.config, validation.plan.seed
+    shown = list(plates(validation, scores, scenes(config, seed)))
+    if cameras is not None:
+        shown += camera_plates(cameras, camera_scenes(config, seed))
     with console.status("drawing") as status:
         for plate in shown:
             status.update(f"drawing {plate.name}")

@@ -125,7 +125,31 @@ def _problems(c: EnvConfig) -> Iterator[str]:
         yield "light.lamps = []: must hold at least one lamp; it may have intensity 0"
     yield from _robot_problems(c)
     yield from _lrf_problems(c)
+    yield from _camera_problems(c)
     yield from _room_problems(c)
+
+
+def _camera_problems(c: EnvConfig) -> Iterator[str]:
+    camera = c.camera
+    if camera.exposure_time > 1 / camera.rate:
+        yield (
+            f"camera.exposure_time = {camera.exposure_time}: must not exceed the time between frames, "
+            f"{1 / camera.rate:g} s"
+        )
+    if camera.renderer == "fast":
+        for i, obstacle in enumerate(c.room.obstacles if camera.enabled else ()):
+            yield (
+                f"room.obstacles.{i} ({obstacle.shape}): camera.renderer = 'fast' draws no obstacles: use "
+                f"camera.renderer = 'tiny'"
+            )
+        return
+    for key, value, plain in (
+        ("camera.exposure_time", camera.exposure_time, 0.0),
+        ("camera.gain", camera.gain, 1.0),
+        ("light.temperature", c.light.temperature, 6500.0),
+    ):
+        if value != plain:
+            yield f"{key} = {value}: must be {plain:g} with camera.renderer = 'tiny'; 'fast' knows others"
 
 
 def _lrf_problems(c: EnvConfig) -> Iterator[str]:
@@ -169,10 +193,12 @@ def _timing_problems(c: EnvConfig) -> Iterator[str]:
         "robot.encoder_rate": 1 / c.robot.encoder_rate,
         "pan.control_rate": 1 / c.pan.control_rate,
     }
+    if c.camera.exposure_time:
+        periods["camera.exposure_time"] = c.camera.exposure_time
     for key, period in periods.items():
         ticks = period / c.timing.tick
         if math.isinf(ticks) or ticks < 0.5 or abs(ticks - round(ticks)) > 1e-6 * ticks:
-            value = f"{period:g} s" if key == "timing.step" else f"{1 / period:g} Hz"
+            value = f"{1 / period:g} Hz" if key.endswith("rate") else f"{period:g} s"
             yield (
                 f"{key} = {value}: its period must be a whole multiple of timing.tick = {c.timing.tick:g} s, "
                 f"got {ticks:.6g} ticks"

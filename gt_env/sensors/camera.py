@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from gymnasium.spaces import Box
@@ -10,22 +10,19 @@ from numpy.typing import NDArray
 
 from estimators.messages import STATION_CAMERA, ImageFrame
 from gt_env.config.sections import CameraConfig
-
-Render = Callable[[float], NDArray[np.uint8]]
-"""A picture (H, W, 3) in the direction of a true pan angle [rad]."""
+from gt_env.fast_camera.noise import add_noise
+from gt_env.sensors.rendering import Made
 
 
 class Camera:
-    """Frames of what lies in the direction of the pan unit, with Gaussian pixel noise.
+    """Frames with Gaussian pixel noise. A frame is made when somebody looks at it, if its renderer can wait.
 
     Args:
         config: What the camera is.
-        render: How pictures are made.
     """
 
-    def __init__(self, config: CameraConfig, render: Render) -> None:
+    def __init__(self, config: CameraConfig) -> None:
         self._config = config
-        self._render = render
 
     def space(self) -> Box:
         """Space of `observe`: (H, W, 3) uint8 RGB."""
@@ -39,20 +36,19 @@ class Camera:
         """Start an episode with a generator of its own."""
         self._rng = rng
 
-    def measure(self, stamp: float, direction: float, encoder: float) -> ImageFrame:
+    def measure(self, stamp: float, picture: Made, encoder: float) -> ImageFrame:
         """Take one frame.
 
         Args:
-            stamp: [s].
-            direction: True pan angle [rad].
+            stamp: End of the exposure [s]; the frame is stamped at its middle.
+            picture: Makes the picture without noise.
             encoder: What the pan unit's encoder says [rad].
         """
-        rgb = self._render(direction)
         if self._config.noise_levels:
-            noise = self._rng.normal(0.0, self._config.noise_levels, rgb.shape)
-            rgb = np.clip(np.rint(rgb + noise), 0, 255).astype(np.uint8)
-        rgb.setflags(write=False)  # the message then shares it instead of copying
-        self._frame = ImageFrame(stamp=stamp, source=STATION_CAMERA, rgb=rgb, pan=encoder)
+            # The noise is that of the frame, whether and whenever it is looked at.
+            picture = partial(_noisy, picture, self._config.noise_levels, int(self._rng.integers(1 << 63)))
+        middle = stamp - 0.5 * self._config.exposure_time if stamp > 0 else stamp
+        self._frame = ImageFrame(stamp=middle, source=STATION_CAMERA, rgb=picture, pan=encoder)
         return self._frame
 
     @property
@@ -72,3 +68,7 @@ class Camera:
     def observe_pan(self) -> NDArray[np.float32]:
         """The encoder's reading with the last frame (1,)."""
         return np.array([self._frame.pan], np.float32)
+
+
+def _noisy(picture: Made, sigma: float, seed: int) -> NDArray[np.uint8]:
+    return add_noise(picture(), sigma, np.random.Generator(np.random.SFC64(seed)))

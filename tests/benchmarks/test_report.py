@@ -37,7 +37,9 @@ def validation(methods=("thesis",), **kind):
     plan = plan_validation(load_config("thesis"), methods, seed=0, quick=True)
     return Validation(
         plan=plan,
-        static={name: joined([faked(run, rng, **kind) for run in runs]) for name, runs in plan.static.items()},
+        static={
+            name: joined([faked(run, rng, **kind) for run in runs]) for name, runs in plan.static.items()
+        },
         moving={name: faked(run, rng, **kind) for name, run in plan.moving.items()},
     )
 

@@ -101,9 +101,9 @@ def test_the_target_is_white_and_nothing_else_is(make):
 
 def test_pixel_noise_has_the_configured_sigma_and_is_rounded():
     still = np.full((60, 80, 3), 128, np.uint8)
-    camera = Camera(CameraConfig(width=80, height=60, noise_levels=3.0), lambda direction: still.copy())
+    camera = Camera(CameraConfig(width=80, height=60, noise_levels=3.0))
     camera.reset(np.random.default_rng(0))
-    frames = np.stack([camera.measure(0.1 * i, 0.0, 0.0).rgb for i in range(20)]).astype(int)
+    frames = np.stack([camera.measure(0.1 * i, lambda: still, 0.0).rgb for i in range(20)]).astype(int)
 
     assert frames.mean() == pytest.approx(128, abs=0.05)
     assert frames.std() == pytest.approx(math.sqrt(9 + 1 / 12), rel=0.02)
@@ -111,12 +111,42 @@ def test_pixel_noise_has_the_configured_sigma_and_is_rounded():
 
 def test_noise_does_not_wrap_around_at_black_and_white():
     for level in (0, 255):
-        camera = Camera(
-            CameraConfig(width=8, height=8, noise_levels=5.0),
-            lambda direction, level=level: np.full((8, 8, 3), level, np.uint8),
-        )
+        plain = np.full((8, 8, 3), level, np.uint8)
+        camera = Camera(CameraConfig(width=8, height=8, noise_levels=5.0))
         camera.reset(np.random.default_rng(0))
-        assert np.abs(camera.measure(0.0, 0.0, 0.0).rgb.astype(int) - level).max() < 40
+        frame = camera.measure(0.0, lambda plain=plain: plain, 0.0)
+        assert np.abs(frame.rgb.astype(int) - level).max() < 40
+
+
+def test_noise_is_that_of_the_frame_whether_or_not_others_were_looked_at():
+    plain = np.full((8, 8, 3), 128, np.uint8)
+
+    def last(looked_at):
+        camera = Camera(CameraConfig(width=8, height=8, noise_levels=5.0))
+        camera.reset(np.random.default_rng(0))
+        frames = [camera.measure(0.1 * i, lambda: plain, 0.0) for i in range(3)]
+        return [frames[i].rgb for i in looked_at][-1]
+
+    assert np.array_equal(last([0, 1, 2]), last([2]))
+    assert not np.array_equal(last([1]), last([2]))
+
+
+def test_a_frame_is_stamped_at_the_middle_of_its_exposure_and_blurred_by_motion(make):
+    def edges(exposure):
+        camera = {"renderer": "fast", "exposure_time": exposure}
+        env = make({"camera": camera})
+        env.reset(seed=0, options={"pose": (0.0, 1.5, 0.0)})
+        for _ in range(5):
+            observation, *_ = env.step(np.array([0.6, 0.6], np.float32))
+        red = observation["image"][:, :, 0].astype(int)
+        row = red[int(0.62 * len(red))]
+        return np.count_nonzero(np.abs(np.diff(row)) > 8), observation["stamps"]
+
+    sharp, stamps = edges(0.0)
+    blurred, late = edges(8 / 240)
+
+    assert blurred > sharp
+    assert late[1] == pytest.approx(stamps[1] - 4 / 240)
 
 
 def brightness(make, **light):

@@ -104,6 +104,6 @@ def test_pushing_against_a_wall_does_not_wind_the_motors_up(make, drive):
 def test_a_target_held_out_touches_the_wall_before_the_robot(make, drive):
     env = make({**OFF, "target": {"mount": [0.5, 0.0]}})
     env.reset(seed=0, options={"pose": (3.0, 2.0, 0.0)})
-    _, info = drive(env, 18, (0.2, 0.2))  # later it turns away along the wall
+    farthest = max(drive(env, 1, (0.2, 0.2))[1]["true_pose"][0] for _ in range(25))
 
-    assert info["true_pose"][0] == pytest.approx(4.0 - 0.5 - 0.10, abs=0.01)
+    assert farthest == pytest.approx(4.0 - 0.5 - 0.10, abs=0.01)

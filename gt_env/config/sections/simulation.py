@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import field
+from typing import Annotated
+
+from pydantic import Field
 
 from gt_env.config.sections.fields import Color, Flag, NotNegative, Positive, Real, Whole, section
 
@@ -29,12 +32,14 @@ class LightConfig:
     Attributes:
         ambient: Light from everywhere, as a fraction of full white.
         lamps: The thesis has one, close to the camera.
+        temperature: Colour temperature [K]; 6500 leaves colours as they are. Another needs the `fast` renderer.
         shadow: Whether the lamps cast shadows.
         backdrop_color: RGB of what is seen above the walls; not a grey, which the thesis takes for target.
     """
 
     ambient: NotNegative = 0.60
     lamps: tuple[LampConfig, ...] = field(default_factory=lambda: (LampConfig(),))
+    temperature: Annotated[float, Field(strict=True, ge=1667, le=25000)] = 6500.0
     shadow: Flag = False
     backdrop_color: Color = (70, 100, 150)
 

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from estimators.calibration import DEG, CameraCalibration, LrfCalibration
 from estimators.poses import Pose2
-from gt_env.config.sections.fields import Flag, NotNegative, Point, Positive, Real, Whole, section
+from gt_env.config.sections.fields import Flag, NotNegative, Point, Positive, Real, section
 
 
 @section
@@ -67,7 +67,8 @@ class CameraConfig:
     Attributes:
         enabled: Whether it is there; without it there is neither `image` nor `camera_pan` in the observation.
         in_observation: Whether frames are part of the observation.
-        renderer: `tiny` is the physics engine's software renderer: one sample a pixel.
+        renderer: `tiny` is the physics engine's software renderer, one sample a pixel; `fast` is closed form,
+            averaged over each pixel's area, and drawn only for frames that are looked at.
         fov_deg: Vertical field of view [deg].
         width: [px].
         height: [px].
@@ -76,11 +77,13 @@ class CameraConfig:
         near: Nothing nearer is drawn [m].
         far: Nothing farther is drawn [m].
         noise_levels: Standard deviation of pixel noise [grey levels].
+        exposure_time: Over which a frame is averaged [s]; it is stamped at the middle. Needs `fast`.
+        gain: On all channels. Needs `fast`.
     """
 
     enabled: Flag = True
     in_observation: Flag = True
-    renderer: Literal["tiny"] = "tiny"
+    renderer: Literal["tiny", "fast"] = "tiny"
     fov_deg: Annotated[float, Field(strict=True, gt=0, lt=180)] = 29.6
     width: Annotated[int, Field(strict=True, ge=8, le=4096)] = 320
     height: Annotated[int, Field(strict=True, ge=8, le=4096)] = 240
@@ -89,6 +92,8 @@ class CameraConfig:
     near: Positive = 0.05
     far: Positive = 40.0
     noise_levels: NotNegative = 0.0
+    exposure_time: NotNegative = 0.0
+    gain: Positive = 1.0
 
     def calibration(self, pan: PanConfig) -> CameraCalibration:
         """As an estimator knows it, on its pan unit."""

@@ -1,0 +1,1 @@
+"""How fast the project is, in ratios that are measured side by side in one run."""

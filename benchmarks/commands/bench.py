@@ -1,0 +1,55 @@
+"""`gt-env bench`: how fast the project is, in ratios measured side by side."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rich.console import Console
+
+from benchmarks.commands.options import (
+    ConfigOption,
+    NoFiguresOption,
+    OutOption,
+    QuickOption,
+    SeedOption,
+    SetOption,
+    configuration,
+    require_report_extra,
+)
+from benchmarks.output import check_writable, staged
+
+
+def bench(
+    config: ConfigOption = "thesis",
+    overrides: SetOption = None,
+    seed: SeedOption = 0,
+    quick: QuickOption = False,
+    out: OutOption = Path("out/bench"),
+    no_figures: NoFiguresOption = False,
+) -> None:
+    """Measure speed and memory: sensors, steps, vector environments and estimators, in ratios."""
+    from benchmarks.bench.report import bench_command, left_out, report_json, tables
+    from benchmarks.bench.run import plan_bench, run_bench
+    from benchmarks.report.terminal import rich_table
+
+    settings = configuration(config, overrides)
+    if not no_figures:
+        require_report_extra()
+    check_writable(out)
+    console = Console()
+    setup = plan_bench(settings, seed=seed, quick=quick)
+    findings = run_bench(setup, console)
+    command = bench_command(config, overrides or [], seed, quick=quick)
+    shown, skipped = tables(findings), left_out(findings)
+    with staged(out) as folder:
+        (folder / "report.json").write_text(report_json(setup, command, findings), encoding="utf-8")
+        if not no_figures:
+            from benchmarks.bench.page import write_page
+
+            write_page(folder, setup, command, findings)
+    for table in shown:
+        console.print(rich_table(table))
+    for line in skipped:
+        console.print(line, soft_wrap=True, highlight=False, markup=False)
+    name = "report.json" if no_figures else "report.html"
+    console.print(str(out / name), soft_wrap=True, highlight=False, markup=False)

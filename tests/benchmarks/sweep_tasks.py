@@ -1,0 +1,25 @@
+"""Tasks that other processes can import by name."""
+
+import os
+import time
+
+import numpy as np
+
+
+def draw(seed, on_step):
+    """Numbers that depend on the seed alone."""
+    for _ in range(3):
+        on_step()
+    return np.random.default_rng(seed).normal(size=5).tobytes()
+
+
+def misbehave(task, on_step):
+    """Do what the task says."""
+    on_step()
+    if task == "raise":
+        raise ValueError("no such pose")
+    if task == "die":
+        os._exit(7)
+    if task == "sleep":
+        time.sleep(60)
+    return task

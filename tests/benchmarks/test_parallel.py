@@ -1,0 +1,84 @@
+import io
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rich.console import Console
+
+from benchmarks.parallel import StepCounter, SweepError, run_side_by_side
+
+sys.path.insert(0, str(Path(__file__).parent))  # joblib's processes get it from here
+from sweep_tasks import draw, misbehave
+
+
+def sweep(function, tasks, jobs=2, **options):
+    return run_side_by_side(
+        function, tasks, [3] * len(tasks), jobs=jobs, label="", console=Console(file=io.StringIO()), **options
+    )
+
+
+def test_results_are_in_the_order_of_the_tasks_whatever_the_order_of_the_runs():
+    done = run_side_by_side(draw, [4, 5, 6], [1, 9, 5], jobs=2, label="", console=Console(file=io.StringIO()))
+    assert done == [draw(seed, lambda: None) for seed in (4, 5, 6)]
+
+
+def test_results_do_not_depend_on_the_number_of_jobs():
+    assert sweep(draw, range(6), jobs=1) == sweep(draw, range(6), jobs=3)
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_task_that_raises_is_named_and_the_others_are_kept(jobs):
+    with pytest.raises(SweepError, match="1 of 3 runs failed: point B: ValueError: no such pose") as raised:
+        sweep(misbehave, ["a", "raise", "c"], jobs=jobs, names=["point A", "point B", "point C"])
+    assert raised.value.results == ["a", None, "c"]
+    assert [f.task for f in raised.value.failures] == ["point B"]
+
+
+def test_a_task_whose_process_dies_is_named_and_the_others_are_kept():
+    with pytest.raises(SweepError, match="2 of 7 runs failed: run 3: its process died") as raised:
+        sweep(misbehave, ["a", "b", "die", "d", "e", "raise", "g"])
+    assert raised.value.results == ["a", "b", None, "d", "e", None, "g"]
+
+
+def test_a_long_list_of_failures_is_cut():
+    with pytest.raises(SweepError, match=r"and 4 more$"):
+        sweep(misbehave, ["raise"] * 9, jobs=1)
+
+
+def test_steps_are_counted_in_the_task_s_own_slot(tmp_path):
+    path = tmp_path / "steps"
+    np.zeros(3, np.int64).tofile(path)
+    count = StepCounter(path, 1)
+    count()
+    count()
+    assert np.fromfile(path, np.int64).tolist() == [0, 2, 0]
+
+
+def test_where_the_counters_cannot_be_reached_steps_are_not_counted(tmp_path):
+    StepCounter(tmp_path / "elsewhere", 0)()
+
+
+@pytest.mark.slow
+def test_ctrl_c_ends_a_sweep_promptly(tmp_path):
+    code = """
+import io
+from rich.console import Console
+from benchmarks.parallel import run_side_by_side
+from sweep_tasks import misbehave
+console = Console(file=io.StringIO())
+run_side_by_side(misbehave, ["sleep"] * 4, [1] * 4, jobs=2, label="", console=console)
+"""
+    run = subprocess.Popen(
+        [sys.executable, "-c", code], cwd=tmp_path, start_new_session=True, stderr=subprocess.PIPE, text=True,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, sys.path))},
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )  # fmt: skip
+    time.sleep(4)
+    os.killpg(run.pid, signal.SIGINT)
+    run.communicate(timeout=10)
+    assert run.returncode != 0

@@ -1,0 +1,213 @@
+"""A ray tracer of the scene by brute force, written from the URDF's and the scene's description alone."""
+
+import math
+
+import numpy as np
+
+from gt_env.config import EnvConfig
+
+CASTER_RADIUS, CASTER_GAP, MARKER_DEPTH = 0.012, 5e-5, 0.02
+
+
+class Tracer:
+    """Rays against every solid; a solid is (color, function of origin and direction -> distance, normal)."""
+
+    def __init__(self, config: EnvConfig, x: float, y: float, yaw: float, pan: float) -> None:
+        self.config, self.pan = config, pan
+        self.solids = []
+        self.blockers = []
+        c = config
+        turn, at = rotation(yaw), np.array([x, y, 0.0])
+        t = c.target
+        mount = np.array([*t.mount, 0.0])
+        z = 0.5 * (t.z_min + t.z_max)
+        target_at = at + turn @ (mount + np.array([0, 0, z]))
+        self.target_at = target_at
+        self.add(t.color, upright(t.radius, t.z_max - t.z_min), target_at, turn, 0.14, blocks=True)
+        for degrees, color in zip(t.marker_angles_deg, t.marker_colors, strict=True):
+            angle = math.radians(degrees + t.mount_yaw_deg)
+            reach = t.radius + t.marker_protrusion - 0.5 * MARKER_DEPTH
+            place = mount + np.array([reach * math.cos(angle), reach * math.sin(angle), z])
+            shape = box(MARKER_DEPTH, t.marker_width, t.marker_height)
+            self.add(color, shape, at + turn @ place, turn @ rotation(angle), 0.025)
+        r = c.robot
+        tall = t.z_min - r.ground_clearance
+        body = box(r.length, r.track - r.wheel_width - 0.004, tall)
+        self.add(
+            r.color, body, at + np.array([0, 0, r.ground_clearance + 0.5 * tall]), turn, 0.15, blocks=True
+        )
+        along_y = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
+        for side in (1, -1):
+            hub = at + turn @ [0, side * 0.5 * r.track, r.wheel_radius]
+            self.add(r.wheel_color, upright(r.wheel_radius, r.wheel_width), hub, turn @ along_y, 0.05)
+            caster = [side * (0.5 * r.length - 1.5 * CASTER_RADIUS), 0, CASTER_RADIUS + CASTER_GAP]
+            self.add(r.wheel_color, ball(CASTER_RADIUS), at + turn @ caster, turn, 0.015)
+        self._add_room()
+
+    def _add_room(self) -> None:
+        room = self.config.room
+        corners = self.config.room.in_station_frame().vertices
+        n = len(corners)
+        directions = [(corners[(i + 1) % n] - corners[i]) for i in range(n)]
+        directions = [d / np.linalg.norm(d) for d in directions]
+
+        def longer(i, j):
+            a, b = directions[i], directions[j]
+            turn = math.atan2(a[0] * b[1] - a[1] * b[0], a @ b)
+            if turn <= 0:
+                return 0.0
+            return room.wall_thickness * math.tan(0.5 * min(turn, 0.9 * math.pi)) + 0.001
+
+        for i in range(n):
+            d = directions[i]
+            a = corners[i] - longer(i - 1, i) * d
+            b = corners[(i + 1) % n] + longer(i, (i + 1) % n) * d
+            middle = 0.5 * (a + b) + 0.5 * room.wall_thickness * np.array([d[1], -d[0]])
+            shape = box(np.linalg.norm(b - a), room.wall_thickness, room.wall_height)
+            place = np.array([*middle, 0.5 * room.wall_height])
+            self.add(room.wall_color, shape, place, rotation(math.atan2(d[1], d[0])), 100.0)
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        size = high - low + 2.0
+        place = np.array([*(0.5 * (low + high)), -0.01])
+        self.add(room.floor_color, box(size[0], size[1], 0.02), place, np.eye(3), 100.0)
+
+    def add(self, color, shape, at, turn, bound, blocks=False) -> None:
+        at = np.asarray(at, float)
+
+        def hit(origin, direction):
+            distance, normal = shape((origin - at) @ turn, direction @ turn)
+            return distance, normal @ turn.T
+
+        self.solids.append((np.array(color, float), hit, at, bound))
+        if blocks:
+            self.blockers.append(hit)
+
+    def colors(self, u, v) -> np.ndarray:
+        """RGB (N, 3) at continuous image coordinates."""
+        c = self.config.camera
+        focal = 0.5 * c.height / math.tan(0.5 * math.radians(c.fov_deg))
+        axis = np.array([math.cos(self.pan), math.sin(self.pan), 0.0])
+        right = np.array([math.sin(self.pan), -math.cos(self.pan), 0.0])
+        across, up = (u - 0.5 * c.width) / focal, (0.5 * c.height - v) / focal
+        direction = axis + across[:, None] * right + up[:, None] * [0.0, 0.0, 1.0]
+        origin = np.broadcast_to(np.array(c.position), direction.shape)
+        nearest = np.full(len(u), np.inf)
+        out = np.tile(np.array(self.config.light.backdrop_color, float), (len(u), 1))
+        normals = np.zeros((len(u), 3))
+        albedo = np.zeros((len(u), 3))
+        for color, hit, at, bound in self.solids:
+            # Only rays that pass through a square around the solid are followed.
+            depth, beside = (at - c.position) @ axis, (at - c.position) @ right
+            near = np.arange(len(u))
+            if depth > 2 * bound:
+                reach = 1.1 * focal * bound / (depth - bound)
+                middle = focal * np.array([beside, c.position[2] - at[2]]) / depth
+                inside = np.abs(u - 0.5 * c.width - middle[0]) < reach
+                near = np.flatnonzero(inside & (np.abs(v - 0.5 * c.height - middle[1]) < reach))
+            if len(near):
+                distance, normal = hit(origin[near], direction[near])
+                closer = distance < nearest[near]
+                own = near[closer]
+                nearest[own], normals[own], albedo[own] = distance[closer], normal[closer], color
+        seen = np.isfinite(nearest)
+        points = origin[seen] + nearest[seen][:, None] * direction[seen]
+        out[seen] = self._shade(points, normals[seen], albedo[seen])
+        return out
+
+    def _shade(self, points, normals, albedo) -> np.ndarray:
+        light = self.config.light
+        share = np.full((len(points), 3), light.ambient)
+        for lamp in light.lamps:
+            to_lamp = np.subtract(lamp.position, self.target_at)
+            to_lamp = to_lamp / np.linalg.norm(to_lamp)
+            cosine = np.maximum(normals @ to_lamp, 0.0)
+            if light.shadow:
+                start = points + 1e-6 * normals
+                for hit in self.blockers:
+                    cosine[np.isfinite(hit(start, np.broadcast_to(to_lamp, start.shape))[0])] = 0.0
+            share += lamp.intensity * cosine[:, None] * np.array(lamp.color) / 255
+        return np.minimum(albedo * share, 255.0)
+
+    def window(self, column, row, width, height, samples=64) -> np.ndarray:
+        """Mean colours (height, width, 3) over samples x samples points in every pixel that is not uniform."""
+        picture = np.zeros((height, width, 3))
+        coarse = 5
+        fine = (np.arange(samples) + 0.5) / samples
+        rough = np.linspace(1e-6, 1 - 1e-6, coarse)
+        for i in range(height):
+            pixels = np.arange(width)
+            u = column + pixels[:, None, None] + rough[None, None, :] + np.zeros((1, coarse, 1))
+            v = row + i + rough[None, :, None] + np.zeros((width, 1, coarse))
+            colors = self.colors(u.ravel(), v.ravel()).reshape(width, coarse * coarse, 3)
+            picture[i] = colors.mean(axis=1)
+            mixed = np.flatnonzero(np.ptp(colors, axis=1).max(axis=1) > 1.0)
+            if len(mixed):
+                u = column + mixed[:, None, None] + fine[None, None, :] + np.zeros((1, samples, 1))
+                v = row + i + fine[None, :, None] + np.zeros((len(mixed), 1, samples))
+                colors = self.colors(u.ravel(), v.ravel()).reshape(len(mixed), samples * samples, 3)
+                picture[i, mixed] = colors.mean(axis=1)
+        return picture
+
+
+def rotation(yaw: float) -> np.ndarray:
+    c, s = math.cos(yaw), math.sin(yaw)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def box(*size):
+    half = 0.5 * np.array(size)
+
+    def hit(origin, direction):
+        safe = np.where(np.abs(direction) < 1e-300, 1e-300, direction)
+        one, two = (-half - origin) / safe, (half - origin) / safe
+        enter, leave = np.minimum(one, two), np.maximum(one, two)
+        axis = enter.argmax(axis=1)
+        rows = np.arange(len(origin))
+        first, last = enter[rows, axis], leave.min(axis=1)
+        normal = np.zeros_like(origin)
+        normal[rows, axis] = -np.sign(direction[rows, axis])
+        return np.where((first <= last) & (first > 0), first, np.inf), normal
+
+    return hit
+
+
+def upright(radius, length):
+    """A cylinder along z."""
+
+    def hit(origin, direction):
+        nearest = np.full(len(origin), np.inf)
+        normal = np.zeros_like(origin)
+        a = direction[:, 0] ** 2 + direction[:, 1] ** 2
+        b = origin[:, 0] * direction[:, 0] + origin[:, 1] * direction[:, 1]
+        rest = b * b - a * (origin[:, 0] ** 2 + origin[:, 1] ** 2 - radius**2)
+        with np.errstate(all="ignore"):
+            t = (-b - np.sqrt(rest)) / a
+            z = origin[:, 2] + t * direction[:, 2]
+            side = (rest > 0) & (t > 0) & (np.abs(z) <= 0.5 * length)
+            for end in (0.5 * length, -0.5 * length):
+                s = (end - origin[:, 2]) / direction[:, 2]
+                p = origin[:, :2] + s[:, None] * direction[:, :2]
+                cap = (s > 0) & ((p**2).sum(axis=1) < radius**2) & (s < nearest)
+                nearest[cap] = s[cap]
+                normal[cap] = [0, 0, np.sign(end)]
+        side &= t < nearest
+        nearest[side] = t[side]
+        p = origin + np.where(side, t, 0.0)[:, None] * direction
+        normal[side] = np.stack([p[:, 0], p[:, 1], np.zeros(len(p))], axis=1)[side] / radius
+        return nearest, normal
+
+    return hit
+
+
+def ball(radius):
+    def hit(origin, direction):
+        a = (direction**2).sum(axis=1)
+        b = (origin * direction).sum(axis=1)
+        rest = b * b - a * ((origin**2).sum(axis=1) - radius**2)
+        with np.errstate(all="ignore"):
+            t = (-b - np.sqrt(rest)) / a
+            t = np.where((rest > 0) & (t > 0), t, np.inf)
+            normal = (origin + np.where(np.isfinite(t), t, 0.0)[:, None] * direction) / radius
+        return t, normal
+
+    return hit
