@@ -59,7 +59,8 @@ class World:
         follows = config.lrf.sweep_time > 0 or config.camera.exposure_time > 0
         self._busy = 1 if follows else math.gcd(*self._every.values())
         self.delivered: list[Message] = []
-        self._states: list[tuple[float, State]] = []
+        self._states: list[State] = []
+        self._states_from = 0  # the tick of the first
         self._tick = 0
         # As far back as an exposure reaches.
         self._past: deque[Instant] = deque(maxlen=1 + config.ticks(config.camera.exposure_time))
@@ -72,7 +73,8 @@ class World:
     @property
     def truth(self) -> list[tuple[float, float, float, float]]:
         """True t [s], x, y [m], yaw [rad] at every tick since the last `advance` began."""
-        return [(t, *self.robot.pose_of(state)) for t, state in self._states]
+        tick, first = self.config.timing.tick, self._states_from
+        return [((first + i) * tick, *self.robot.pose_of(s)) for i, s in enumerate(self._states)]
 
     def spaces(self) -> dict[str, spaces.Space[NDArray[np.generic]]]:
         """Spaces of the observation's parts, by key."""
@@ -106,19 +108,20 @@ class World:
         self._rendering.reset()
         self._past.clear()
         self.delivered.clear()
-        self._states[:] = [(0.0, self.robot.state())]
+        self._states[:], self._states_from = [self.robot.state()], 0
         self._measure()
 
     def advance(self, ticks: int) -> None:
         """Let time pass."""
         self.delivered.clear()
         self._states.clear()
+        self._states_from = self._tick + 1
         for _ in range(ticks):
             self.robot.ramp()
             self.engine.step()
             self.pan.advance()
             self._tick += 1
-            self._states.append((self.time, self.robot.state()))
+            self._states.append(self.robot.state())
             if self._tick % self._busy == 0:
                 self._measure()
 

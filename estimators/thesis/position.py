@@ -34,11 +34,13 @@ def find_run(accepted: NDArray[np.bool_]) -> tuple[int, int] | None:
     Returns:
         Indices of the first accepted beam and of the beam after the last, or None.
     """
-    padded = np.concatenate([[False], accepted, [False]])
-    change = np.flatnonzero(padded[1:] != padded[:-1])
-    for start, end in zip(change[::2].tolist(), change[1::2].tolist(), strict=True):
-        if end - start > 1:
-            return start, end
+    beams = np.flatnonzero(accepted).tolist()
+    start = None
+    for beam, following in zip(beams, [*beams[1:], -1], strict=False):
+        if following == beam + 1:
+            start = beam if start is None else start
+        elif start is not None:
+            return start, beam + 1
     return None
 
 

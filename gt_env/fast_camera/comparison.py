@@ -72,4 +72,5 @@ def _join(pictures: list[NDArray[np.uint8]], axis: int) -> NDArray[np.uint8]:
 
 
 if __name__ == "__main__":
-    cv2.imwrite(sys.argv[1], cv2.cvtColor(side_by_side(load_config({})), cv2.COLOR_RGB2BGR))
+    picture = cv2.cvtColor(side_by_side(load_config({})), cv2.COLOR_RGB2BGR)
+    cv2.imwrite(sys.argv[1], picture, [cv2.IMWRITE_PNG_COMPRESSION, 9])

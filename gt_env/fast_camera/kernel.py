@@ -13,7 +13,7 @@ from gt_env.fast_camera.compiling import compiled
 from gt_env.fast_camera.placed import Placed
 from gt_env.fast_camera.tables import Tables
 
-ROBOT_STEP, WHEEL_STEP = 1.0, 0.5
+ROBOT_STEP, WHEEL_STEP = 1.0, 1.0
 """Widest slab in which robot and wheels are drawn [px]."""
 NARROWEST = 0.04
 """Slabs in which borders cross are halved down to this width [px]."""
