@@ -13,6 +13,7 @@ from estimators.errors import (
     MissingExtraError,
     RecordingError,
 )
+from estimators.fused import FusedEstimator
 from estimators.messages import (
     ImageFrame,
     ImuSample,
@@ -36,6 +37,7 @@ __all__ = [
     "CameraCalibration",
     "ConfigError",
     "Estimator",
+    "FusedEstimator",
     "GroundTruthWrapper",
     "GtEnvError",
     "ImageFrame",

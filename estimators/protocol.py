@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Final, Protocol, runtime_checkable
 
 from estimators.calibration import Calibration
 from estimators.errors import ConfigError
+from estimators.fused import FusedEstimator
 from estimators.messages import Message, PoseEstimate
 from estimators.thesis import ThesisEstimator
 
@@ -25,7 +27,11 @@ class Estimator(Protocol):
         """Take one message, in the order of delivery; answer with the estimate that follows, if any."""
 
 
-METHODS: Final[dict[str, Callable[[Calibration], Estimator]]] = {"thesis": ThesisEstimator}
+METHODS: Final[dict[str, Callable[[Calibration], Estimator]]] = {
+    "thesis": ThesisEstimator,
+    "lrf": partial(FusedEstimator, camera=False),
+    "fused": FusedEstimator,
+}
 """The ground-truth system's methods; each reads messages of the station only."""
 
 

@@ -51,7 +51,7 @@ class GroundTruthWrapper(
     def __init__(
         self,
         env: gym.Env[Any, Any],
-        method: str = "thesis",
+        method: str = "fused",
         name: str = "gt",
         calibration: Calibration | None = None,
     ) -> None:

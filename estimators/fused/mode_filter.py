@@ -1,0 +1,177 @@
+"""An extended Kalman filter that does not know how the robot drives: one filter per mode, mixed.
+
+The interacting multiple model estimator of Blom and Bar-Shalom, "The interacting multiple model algorithm for
+systems with Markovian switching coefficients", IEEE Transactions on Automatic Control 33(8), 1988.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from estimators.fused.motion import BIASES, CREEP, Mode, MotionModel
+from estimators.poses import Array, wrap_angle
+
+YAW: Final = 2
+UNLIKELY: Final = 1e-3
+"""Probability of a mode below which it has no say in what the gate lets in."""
+LEAST_WEIGHT: Final = 1e-6
+"""Probability that every mode keeps, so that it can come back."""
+Measured = Callable[[Array], tuple[Array, Array]]
+"""What states (M, n) would measure: (M, k), and its derivatives (M, k, n)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Innovation:
+    """What a measurement said beyond what was expected.
+
+    Attributes:
+        residual: (k,).
+        covariance: (k, k) of it, as expected.
+        accepted: Whether the gate let it in.
+    """
+
+    residual: Array
+    covariance: Array
+    accepted: bool
+
+    @property
+    def normalized(self) -> float:
+        """Squared Mahalanobis length; chi-square with k degrees of freedom if all is well."""
+        return float(self.residual @ np.linalg.solve(self.covariance, self.residual))
+
+
+class ModeFilter:
+    """State and covariance per mode, and how likely each mode is.
+
+    No array is ever changed in place, so that whoever keeps one keeps the filter as it was.
+
+    Attributes:
+        model: How states go on.
+        x: States (M, n).
+        P: Their covariances (M, n, n).
+        weights: Probabilities of the modes (M,).
+    """
+
+    def __init__(self, model: MotionModel) -> None:
+        self.model = model
+        self._rest = np.array([m.at_rest for m in model.modes])
+        self._speeds = slice(YAW + 1, model.size - BIASES)
+        self._densities = np.square([(m.acceleration, m.turning) for m in model.modes])
+
+    def start(self, x: float, y: float, yaw: float) -> None:
+        """Begin near a pose [m, m, rad] with next to nothing known, ready for the measurements that it came from."""
+        m, n = len(self._rest), self.model.size
+        self.x = np.zeros((m, n))
+        self.x[:, :3] = x, y, yaw
+        P = np.zeros((n, n))
+        P[:3, :3] = np.eye(3)
+        P[self._speeds, self._speeds] = np.diag(np.square(self.model.speed_sigmas))
+        P[-BIASES:, -BIASES:] = np.eye(BIASES)
+        self.P = np.tile(P, (m, 1, 1))
+        self._stop_resting()
+        self.weights = np.full(m, 1 / m)
+
+    def predict(self, dt: float) -> None:
+        """Let `dt` [s] pass, not negative."""
+        if dt > 0:
+            self._mix(dt)
+            x, F = self.model.step(self.x, dt)
+            Q = self.model.noise(x, dt, self._densities)
+            x[self._rest] = self.x[self._rest]
+            F[self._rest] = np.eye(self.model.size)
+            Q[self._rest, :3, :3] = dt * np.diag(CREEP)
+            self.x, self.P = x, F @ self.P @ F.transpose(0, 2, 1) + Q
+            self._stop_resting()
+
+    def forget(self, biases: slice, kept: Array) -> None:
+        """Let biases fade, a share `kept` (M, k) of them left, and fresh ones take their place.
+
+        `biases` counts within the last states of the model.
+        """
+        if (kept >= 1).all():
+            return
+        n = self.model.size
+        fade = np.ones((len(kept), n))
+        fade[:, n - BIASES :][:, biases] = kept
+        self.x = self.x * fade
+        self.P = self.P * (fade[:, :, None] * fade[:, None, :])
+        every = np.arange(n)
+        self.P[:, every, every] += 1 - fade**2
+
+    def update(self, z: Array, measured: Measured, R: Array, angles: Array, gate: float) -> Innovation:
+        """Take a measurement.
+
+        Args:
+            z: (k,) what was measured.
+            measured: What states would measure.
+            R: (k, k) covariance of the measurement.
+            angles: (k,) which of its values are angles.
+            gate: Largest squared Mahalanobis length, in the most willing mode, that is let in.
+        """
+        expected, H = measured(self.x)
+        residual = z - expected
+        residual[:, angles] = wrap_angle(residual[:, angles])
+        PHt = self.P @ H.transpose(0, 2, 1)
+        S = H @ PHt + R
+        S_inverse = np.linalg.inv(S)
+        distance = (residual[:, None, :] @ S_inverse @ residual[:, :, None])[:, 0, 0]
+        accepted = bool(distance[self.weights > UNLIKELY].min() <= gate)
+        innovation = self._mixed_innovation(residual, S, accepted)
+        if not accepted:
+            return innovation
+        K = PHt @ S_inverse
+        self.x = self.x + (K @ residual[:, :, None])[:, :, 0]
+        # Joseph's form keeps the covariance symmetric and positive.
+        A = np.eye(self.model.size) - K @ H
+        self.P = A @ self.P @ A.transpose(0, 2, 1) + K @ R @ K.transpose(0, 2, 1)
+        log_likelihood = -0.5 * (distance + np.log(np.linalg.det(S)))
+        weights = self.weights * np.exp(log_likelihood - log_likelihood.max())
+        weights = np.maximum(weights / weights.sum(), LEAST_WEIGHT)
+        self.weights = weights / weights.sum()
+        return innovation
+
+    def combined(self) -> tuple[Array, Array]:
+        """State (n,) and covariance (n, n) over all modes."""
+        x, P = _mixtures(self.weights[:, None], self.x, self.P)
+        return x[0], P[0]
+
+    def _mix(self, dt: float) -> None:
+        """Let modes switch: each starts from a mixture of all."""
+        joint = switching(self.model.modes, dt) * self.weights[:, None]
+        weights = joint.sum(axis=0)
+        self.x, self.P = _mixtures(joint / weights, self.x, self.P)
+        self.weights = weights
+
+    def _stop_resting(self) -> None:
+        """In a mode at rest the velocities are zero, and known to be; both arrays are fresh."""
+        self.x[self._rest, self._speeds] = 0.0
+        self.P[self._rest, self._speeds, :] = 0.0
+        self.P[self._rest, :, self._speeds] = 0.0
+
+    def _mixed_innovation(self, residual: Array, S: Array, accepted: bool) -> Innovation:
+        mean, covariance = _mixtures(self.weights[:, None], residual, S)
+        return Innovation(mean[0], covariance[0], accepted)
+
+
+def switching(modes: tuple[Mode, ...], dt: float) -> Array:
+    """Probabilities (M, M) that a mode (row) has become another (column) after `dt` [s]."""
+    m = len(modes)
+    stay = np.exp([-dt / mode.duration for mode in modes]) if m > 1 else np.ones(1)
+    chances = np.repeat(((1 - stay) / max(m - 1, 1))[:, None], m, axis=1)
+    np.fill_diagonal(chances, stay)
+    return chances
+
+
+def _mixtures(weights: Array, x: Array, P: Array) -> tuple[Array, Array]:
+    """Means (J, n) and covariances (J, n, n) of mixtures of M Gaussians with weights (M, J)."""
+    m, n = x.shape
+    # About one of them: the squares of rooms, and of many turns, would cost digits.
+    off = x - x[0]
+    mean = weights.T @ off
+    squares = (P + off[:, :, None] * off[:, None, :]).reshape(m, n * n)
+    covariance = (weights.T @ squares).reshape(-1, n, n) - mean[:, :, None] * mean[:, None, :]
+    return x[0] + mean, covariance

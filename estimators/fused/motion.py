@@ -1,0 +1,156 @@
+"""How a robot may move between two measurements, for several modes of driving at once.
+
+A state is a row `x, y, yaw` of the robot's base, its velocities, and the biases of what is measured, which last as
+long as the robot does not move: a pixel or a beam that just meets the target does so in every frame and scan. All
+functions work on a stack of M states, one per mode.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final, Protocol
+
+import numpy as np
+
+from estimators.poses import Array
+
+BIASES: Final = 4
+"""Biases of the image's bearing and yaw, and of the scan's fix along and across the line of sight: the last states
+of every model, each in units of its standard deviation."""
+
+
+CREEP: Final = np.square([1e-4, 1e-4, 1e-4])
+"""What a robot at rest still moves: growth of the variance of x, y, yaw [m^2/s, rad^2/s]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Mode:
+    """A way of driving.
+
+    Attributes:
+        name: What it is called.
+        acceleration: Root spectral density of the acceleration [m/s^1.5]; 0 for a robot at rest.
+        turning: The same of the angular acceleration [rad/s^1.5].
+        duration: How long it lasts on average [s].
+    """
+
+    name: str
+    duration: float
+    acceleration: float
+    turning: float
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether velocities are zero in this mode."""
+        return self.acceleration == 0.0 and self.turning == 0.0
+
+
+class MotionModel(Protocol):
+    """States `x, y, yaw, velocities..., biases`, and how they go on."""
+
+    size: int
+    """Number of states."""
+    speed_sigmas: tuple[float, ...]
+    """Standard deviations of the velocities when nothing is known of them."""
+    modes: tuple[Mode, ...]
+    """How wheeled robots drive: they stand, hold their speeds, or change them within a fraction of a second."""
+
+    def step(self, states: Array, dt: float) -> tuple[Array, Array]:
+        """Means (M, n) after `dt` [s] and their derivatives (M, n, n), for modes that move."""
+
+    def noise(self, states: Array, dt: float, densities: Array) -> Array:
+        """Covariance (M, n, n) that the unknown accelerations of each mode add in `dt` [s].
+
+        Args:
+            states: After `dt` (M, n).
+            dt: [s].
+            densities: (M, 2) of acceleration [m^2/s^3] and angular acceleration [rad^2/s^3].
+        """
+
+    def velocities(self, states: Array) -> Array:
+        """vx, vy (M, 2) [m/s] of the base in the room."""
+
+
+class Unicycle:
+    """A robot that moves along its heading only: states x, y, yaw, v, omega and the biases.
+
+    Coordinated turn with white-noise acceleration: over `dt` it drives the chord of its arc.
+    """
+
+    size = 5 + BIASES
+    speed_sigmas: tuple[float, ...] = (0.7, 3.0)
+    modes: tuple[Mode, ...] = (
+        Mode(name="rest", duration=10.0, acceleration=0.0, turning=0.0),
+        Mode(name="cruise", duration=3.0, acceleration=0.05, turning=0.10),
+        Mode(name="manoeuvre", duration=0.3, acceleration=1.0, turning=8.0),
+    )
+
+    def step(self, states: Array, dt: float) -> tuple[Array, Array]:
+        """See `MotionModel`."""
+        yaw, v, omega = states[:, 2], states[:, 3], states[:, 4]
+        middle = yaw + 0.5 * dt * omega
+        c, s = np.cos(middle), np.sin(middle)
+        out = states.copy()
+        out[:, 0] += dt * v * c
+        out[:, 1] += dt * v * s
+        out[:, 2] += dt * omega
+        F = np.tile(np.eye(self.size), (len(states), 1, 1))
+        F[:, 0, 2], F[:, 0, 3], F[:, 0, 4] = -dt * v * s, dt * c, -0.5 * dt * dt * v * s
+        F[:, 1, 2], F[:, 1, 3], F[:, 1, 4] = dt * v * c, dt * s, 0.5 * dt * dt * v * c
+        F[:, 2, 4] = dt
+        return out, F
+
+    def noise(self, states: Array, dt: float, densities: Array) -> Array:
+        """See `MotionModel`."""
+        middle = states[:, 2] + 0.5 * dt * states[:, 4]
+        c, s = np.cos(middle), np.sin(middle)
+        qa, qt = densities.T
+        Q = np.zeros((len(states), self.size, self.size))
+        # Along the heading: [[dt^3/3, dt^2/2], [dt^2/2, dt]] q, turned into x and y.
+        Q[:, 0, 0], Q[:, 1, 1], Q[:, 0, 1] = (qa * dt**3 / 3 * f for f in (c * c, s * s, c * s))
+        Q[:, 1, 0] = Q[:, 0, 1]
+        Q[:, 0, 3] = Q[:, 3, 0] = qa * dt**2 / 2 * c
+        Q[:, 1, 3] = Q[:, 3, 1] = qa * dt**2 / 2 * s
+        Q[:, 3, 3] = qa * dt
+        Q[:, 2, 2], Q[:, 4, 4] = qt * dt**3 / 3, qt * dt
+        Q[:, 2, 4] = Q[:, 4, 2] = qt * dt**2 / 2
+        return Q
+
+    def velocities(self, states: Array) -> Array:
+        """See `MotionModel`."""
+        yaw, v = states[:, 2], states[:, 3]
+        return np.stack([v * np.cos(yaw), v * np.sin(yaw)], axis=1)
+
+
+class Holonomic:
+    """A robot that moves in any direction: states x, y, yaw, vx, vy, omega and the biases."""
+
+    size = 6 + BIASES
+    speed_sigmas: tuple[float, ...] = (0.7, 0.7, 3.0)
+    modes: tuple[Mode, ...] = (
+        Mode(name="rest", duration=10.0, acceleration=0.0, turning=0.0),
+        Mode(name="cruise", duration=3.0, acceleration=0.05, turning=0.10),
+        # To turn at a constant speed is to accelerate sideways.
+        Mode(name="turn", duration=3.0, acceleration=0.35, turning=0.10),
+        Mode(name="manoeuvre", duration=0.3, acceleration=1.2, turning=8.0),
+    )
+
+    def step(self, states: Array, dt: float) -> tuple[Array, Array]:
+        """See `MotionModel`."""
+        F = np.tile(np.eye(self.size), (len(states), 1, 1))
+        F[:, (0, 1, 2), (3, 4, 5)] = dt
+        out = states.copy()
+        out[:, :3] += dt * states[:, 3:6]
+        return out, F
+
+    def noise(self, states: Array, dt: float, densities: Array) -> Array:
+        """See `MotionModel`."""
+        Q = np.zeros((len(states), self.size, self.size))
+        for place, speed, q in zip((0, 1, 2), (3, 4, 5), densities.T[[0, 0, 1]], strict=True):
+            Q[:, place, place], Q[:, speed, speed] = q * dt**3 / 3, q * dt
+            Q[:, place, speed] = Q[:, speed, place] = q * dt**2 / 2
+        return Q
+
+    def velocities(self, states: Array) -> Array:
+        """See `MotionModel`."""
+        return states[:, 3:5]

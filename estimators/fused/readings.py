@@ -1,0 +1,207 @@
+"""Measurements in the form that the filter takes: what was read, and what a state would read."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Final, Protocol, Self
+
+import numpy as np
+
+from estimators.fused.motion import BIASES
+from estimators.marker_fit import MarkerMeasurement
+from estimators.poses import Array, Pose2
+from estimators.scan_model import PositionFix
+
+YAW: Final = 2
+IMAGE_BIASES: Final = slice(0, 2)
+SCAN_BIASES: Final = slice(2, 4)
+MOST_LASTING: Final = 0.95
+"""Largest share of a frame's variance that is taken to last; the rest keeps the filter well conditioned."""
+PLAY: Final = 1e-4
+"""How well axis and middle of the target are one: its lean, play of the mount, an uneven floor [m]. Without it
+bearings of a hundredth of a milliradian, which depend on the distance a little, would be believed as ranges."""
+ALONG_SHARE: Final = 0.2
+"""Share of a scan fix's deviation along the line of sight that stays as long as the same beams meet the target."""
+ACROSS_BEAMS: Final = 0.15
+"""Deviation of what stays across it, in spacings between beams (simulated at 1 to 4 m: 0.12 to 0.16)."""
+FRESH_SHARE: Final = 0.45
+"""Share of a scan fix's deviation across the line of sight that is fresh in every scan (simulated: 0.38 to 0.48)."""
+
+
+class Reading(Protocol):
+    """One measurement."""
+
+    @property
+    def stamp(self) -> float:
+        """When it was measured [s]."""
+
+    @property
+    def z(self) -> Array:
+        """What was read (k,)."""
+
+    @property
+    def R(self) -> Array:  # noqa: N802 - the filter's letter
+        """Covariance (k, k) of the part of the error that is fresh."""
+
+    @property
+    def angles(self) -> Array:
+        """Which values are angles (k,)."""
+
+    @property
+    def biases(self) -> slice:
+        """Which biases it carries."""
+
+    def expected(self, states: Array) -> tuple[Array, Array]:
+        """What states (M, n) would read (M, k), and the derivatives (M, k, n)."""
+
+    def kept(self, before: Self, velocities: Array) -> Array:
+        """Share of its biases (M, 2) that is left of those of the reading before of its kind.
+
+        Args:
+            before: That reading.
+            velocities: vx, vy (M, 2) of the robot in each mode [m/s].
+        """
+
+
+def _target_of(states: Array, mount: Pose2) -> tuple[Array, Array]:
+    """x, y of the target (M, 2) for states of the base, and how they turn with the yaw (M, 2)."""
+    c, s = np.cos(states[:, YAW]), np.sin(states[:, YAW])
+    across = np.stack([-s * mount.x - c * mount.y, c * mount.x - s * mount.y], axis=1)
+    along = np.stack([c * mount.x - s * mount.y, s * mount.x + c * mount.y], axis=1)
+    return states[:, :2] + along, across
+
+
+@dataclass(frozen=True, slots=True)
+class PositionReading:
+    """The LRF's fix of the target."""
+
+    fix: PositionFix
+    mount: Pose2
+    origin: tuple[float, float]
+    bearing_increment: float
+
+    @property
+    def stamp(self) -> float:
+        """See `Reading`."""
+        return self.fix.stamp
+
+    @property
+    def biases(self) -> slice:
+        """See `Reading`."""
+        return SCAN_BIASES
+
+    def _sight(self) -> tuple[Array, float]:
+        """Axes (2, 2) along and across the line of sight in columns, and the distance [m]."""
+        d = self.fix.position - self.origin
+        distance = float(np.hypot(*d))
+        ux, uy = d / distance
+        return np.array([[ux, -uy], [uy, ux]]), distance
+
+    @property
+    def z(self) -> Array:
+        """See `Reading`."""
+        return self.fix.position
+
+    @property
+    def R(self) -> Array:  # noqa: N802
+        """See `Reading`."""
+        axes, _ = self._sight()
+        scale = axes @ np.diag([math.sqrt(1 - ALONG_SHARE**2), FRESH_SHARE]) @ axes.T
+        return scale @ self.fix.covariance @ scale.T
+
+    @property
+    def angles(self) -> Array:
+        """See `Reading`."""
+        return np.array([False, False])
+
+    def expected(self, states: Array) -> tuple[Array, Array]:
+        """See `Reading`."""
+        target, turn = _target_of(states, self.mount)
+        H = np.zeros((len(states), 2, states.shape[1]))
+        H[:, 0, 0] = H[:, 1, 1] = 1.0
+        H[:, :, YAW] = turn
+        axes, distance = self._sight()
+        along = math.sqrt(float(axes[:, 0] @ self.fix.covariance @ axes[:, 0]))
+        # Across, the scale must not follow the fix's own covariance, which varies with the very error it scales.
+        lasting = axes * (ALONG_SHARE * along, ACROSS_BEAMS * distance * self.bearing_increment)
+        biases = states[:, -BIASES:][:, SCAN_BIASES]
+        H[:, :, -BIASES:][:, :, SCAN_BIASES] = lasting
+        return target + biases @ lasting.T, H
+
+    def kept(self, before: PositionReading, velocities: Array) -> Array:
+        """See `Reading`: gone once the target has moved by one beam."""
+        axes, distance = self._sight()
+        moved = np.abs(velocities @ axes) * abs(self.stamp - before.stamp)
+        beams = (moved[:, 0] * 0.1 + moved[:, 1]) / (distance * self.bearing_increment)
+        return np.repeat(np.clip(1 - beams, 0.0, 1.0)[:, None] ** 2, 2, axis=1)
+
+
+@dataclass(frozen=True, slots=True)
+class MarkerReading:
+    """Bearing and yaw of the target in a frame, each with a bias that lasts as long as the image stays."""
+
+    seen: MarkerMeasurement
+    mount: Pose2
+
+    @property
+    def stamp(self) -> float:
+        """See `Reading`."""
+        return self.seen.stamp
+
+    @property
+    def z(self) -> Array:
+        """See `Reading`."""
+        return np.array([self.seen.bearing, self.seen.yaw])
+
+    @property
+    def biases(self) -> slice:
+        """See `Reading`."""
+        return IMAGE_BIASES
+
+    @property
+    def bias_share(self) -> float:
+        """Share of the variance that lasts."""
+        return min(self.seen.systematic, MOST_LASTING)
+
+    @property
+    def R(self) -> Array:  # noqa: N802
+        """See `Reading`."""
+        return (1 - self.bias_share) * self.seen.covariance
+
+    @property
+    def angles(self) -> Array:
+        """See `Reading`."""
+        return np.array([True, True])
+
+    def expected(self, states: Array) -> tuple[Array, Array]:
+        """See `Reading`."""
+        seen = self.seen
+        target, turn = _target_of(states, self.mount)
+        d = target - seen.camera
+        distance = np.hypot(d[:, 0], d[:, 1])
+        ray = d / distance[:, None]
+        n = states.shape[1]
+        slopes = np.zeros((len(states), 2, n))
+        slopes[:, 0, 0], slopes[:, 0, 1] = -ray[:, 1] / distance, ray[:, 0] / distance
+        slopes[:, :, :2] -= seen.sensitivity[:, None] * ray[:, None, :]
+        slopes[:, :, YAW] = np.einsum("mki,mi->mk", slopes[:, :, :2], turn)
+        slopes[:, 1, YAW] += 1.0
+        play = np.array([(PLAY / seen.distance) ** 2, PLAY**2])
+        lasting = np.sqrt(self.bias_share * np.diag(seen.covariance) + play)
+        slopes[:, 0, n - BIASES], slopes[:, 1, n - BIASES + 1] = lasting
+        reading = np.stack([np.arctan2(d[:, 1], d[:, 0]), states[:, YAW] + self.mount.yaw], axis=1)
+        reading -= seen.sensitivity * (distance - seen.distance)[:, None]
+        return reading + lasting * states[:, -BIASES:][:, IMAGE_BIASES], slopes
+
+    def kept(self, before: MarkerReading, velocities: Array) -> Array:
+        """See `Reading`: gone once the image has moved by a pixel."""
+        share = self.seen.systematic
+        repeated = self.seen.correlation(before.seen) / share if share > 0 else 0.0
+        return np.full((len(velocities), 2), repeated)
+
+    def first_pose(self, target: Array) -> Pose2:
+        """Pose of the base if the target is at a position (2,) [m] and looks as it does."""
+        pose = Pose2(x=float(target[0]), y=float(target[1]), yaw=self.seen.yaw) @ self.mount.inverse()
+        assert math.isfinite(pose.yaw)
+        return pose

@@ -1,0 +1,108 @@
+"""Looking back over a track: every state from all measurements.
+
+Each moment's mode is known better from what followed (Kim, "Dynamic linear models with Markov-switching", Journal
+of Econometrics 60, 1994). One filter then goes forward with the noise that the modes make expected, and the smoother
+of Rauch, Tung and Striebel (AIAA Journal 3(8), 1965) back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from estimators.fused.mode_filter import switching
+from estimators.fused.motion import BIASES, CREEP
+from estimators.fused.track import Moment, Track
+from estimators.poses import Array, wrap_angle
+
+RESTS: Final = 0.9
+"""Probability above which a robot counts as at rest."""
+STANDS: Final = 1e-3
+"""How well a robot at rest is known not to move [m/s, rad/s]."""
+
+
+class _Step(NamedTuple):
+    """One step of the filter: the prediction, its derivatives by the step before, and the state after."""
+
+    predicted: Array
+    P_predicted: Array
+    A: Array
+    x: Array
+    P: Array
+
+
+def smoothed(track: Track, moments: Sequence[Moment]) -> list[tuple[Array, Array]]:
+    """State (n,) and covariance (n, n) at each moment, given all of them."""
+    if not moments:
+        return []
+    steps = _forward(track, moments, _modes(track, moments))
+    x, P = steps[-1].x, steps[-1].P
+    results = [(x, P)]
+    for before, after in zip(steps[-2::-1], steps[:0:-1], strict=True):
+        G = np.linalg.solve(after.P_predicted, after.A @ before.P).T
+        x = before.x + G @ (x - after.predicted)
+        P = before.P + G @ (P - after.P_predicted) @ G.T
+        P = 0.5 * (P + P.T)
+        results.append((x, P))
+    return results[::-1]
+
+
+def _modes(track: Track, moments: Sequence[Moment]) -> Array:
+    """Probabilities (T, M) of the modes at each moment, given all of them."""
+    after = moments[-1].weights
+    results = [after]
+    for moment, following in zip(moments[-2::-1], moments[:0:-1], strict=True):
+        chances = switching(track.model.modes, following.reading.stamp - moment.reading.stamp)
+        expected = moment.weights @ chances
+        after = moment.weights * (chances @ (after / expected))
+        after = after / after.sum()
+        results.append(after)
+    chances = np.array(results[::-1])
+    # When exactly a mode began, no measurement says: its neighbours count as much.
+    padded = np.concatenate([chances[:1], chances, chances[-1:]])
+    blurred: Array = (padded[:-2] + padded[1:-1] + padded[2:]) / 3
+    return blurred
+
+
+def _forward(track: Track, moments: Sequence[Moment], modes: Array) -> list[_Step]:
+    """Filter with the noise that the modes (T, M) make expected."""
+    model, n = track.model, track.model.size
+    densities = np.square([(m.acceleration, m.turning) for m in model.modes])
+    rest = np.array([m.at_rest for m in model.modes])
+    creep = np.zeros((n, n))
+    creep[:3, :3] = np.diag(CREEP)
+    x, P = track.start
+    steps = [_Step(x, P, np.eye(n), x, P)]
+    for (before, moment), chance in zip(pairwise(moments), modes[1:], strict=True):
+        reading = moment.reading
+        dt = reading.stamp - before.reading.stamp
+        stepped, F = model.step(x[None], dt)
+        x, A = stepped[0], F[0]
+        Q = model.noise(x[None], dt, (chance @ densities)[None])[0] + dt * creep
+        fade = np.ones(n)
+        latest = before.latest.get(type(reading))
+        if latest is not None:
+            fade[n - BIASES :][reading.biases] = reading.kept(latest, model.velocities(x[None]))[0]
+        x, A = fade * x, fade[:, None] * A
+        P = A @ P @ A.T + fade[:, None] * Q * fade + np.diag(1 - fade**2)
+        predicted, P_predicted = x, P
+        if chance[rest].sum() > RESTS:
+            speeds = np.eye(n)[3 : n - BIASES]
+            x, P = _update(x, P, -(speeds @ x), speeds, STANDS**2 * np.eye(len(speeds)))
+        if moment.accepted:
+            expected, H = reading.expected(x[None])
+            residual = reading.z - expected[0]
+            residual[reading.angles] = wrap_angle(residual[reading.angles])
+            x, P = _update(x, P, residual, H[0], reading.R)
+        steps.append(_Step(predicted, P_predicted, A, x, P))
+    return steps
+
+
+def _update(x: Array, P: Array, residual: Array, H: Array, R: Array) -> tuple[Array, Array]:
+    """State and covariance after a measurement."""
+    K = np.linalg.solve(H @ P @ H.T + R, H @ P).T
+    A = np.eye(len(x)) - K @ H
+    return x + K @ residual, A @ P @ A.T + K @ R @ K.T
