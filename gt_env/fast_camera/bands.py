@@ -22,6 +22,8 @@ CAPACITY = 192
 MOST_ROWS = 4098
 TOLERANCE = 0.03
 """Borders that change order within a slab by less than this are not worth a narrower slab [px]."""
+FAINT = 6.0
+"""Borders of less contrast may cross [grey levels]."""
 FAR_BELOW = 1e9
 """A row below every picture."""
 
@@ -77,27 +79,36 @@ def paint(
     low_left: float,
     low_right: float,
     rgb: tuple[float, float, float],
-) -> bool:
-    """Paint over what lies between two borders [px]; returns whether borders cross within the slab."""
+) -> float:
+    """Paint over what lies between two borders [px].
+
+    Returns:
+        Where in the slab borders first cross, as a share of its width; 1 if they do not. Order is judged in the
+        slab's middle, so that one with a crossing is to be drawn in two parts.
+    """
     left, right, color = bands.left, bands.right, bands.color
     top, low = top_left + top_right, low_left + low_right
     n = bands.count
     if low <= top or n > CAPACITY - 3:
-        return False
+        return 1.0
     i = 0
     while i < n - 1 and left[i] + right[i] <= top:
         i += 1
     j = i
     while j < n - 1 and left[j] + right[j] < low:
         j += 1
-    crossing = i > 0 and (left[i - 1] > top_left + TOLERANCE or right[i - 1] > top_right + TOLERANCE)
-    if j < n - 1 and (left[j] < low_left - TOLERANCE or right[j] < low_right - TOLERANCE):
-        crossing = True
-    for k in range(i, j):
-        if left[k] < top_left - TOLERANCE or right[k] < top_right - TOLERANCE:
-            crossing = True
-        if left[k] > low_left + TOLERANCE or right[k] > low_right + TOLERANCE:
-            crossing = True
+    cut = _crossing(low_left - top_left, low_right - top_right)
+    for k in range(max(i - 1, 0), min(j + 1, n - 1)):
+        if k < i:
+            at = _crossing(top_left - left[k], top_right - right[k])
+        else:
+            at = _crossing(left[k] - top_left, right[k] - top_right)
+        if k < j:
+            at = min(at, _crossing(low_left - left[k], low_right - right[k]))
+        else:
+            at = min(at, _crossing(left[k] - low_left, right[k] - low_right))
+        if at < cut and _contrast(color, k) > FAINT:
+            cut = at
     # Band i keeps what is above, band j what is below; they may be the same one.
     shift = i + 2 - j
     if shift > 0:
@@ -114,7 +125,24 @@ def paint(
     left[i + 1], right[i + 1] = low_left, low_right
     color[i + 1, 0], color[i + 1, 1], color[i + 1, 2] = rgb
     bands.count = n + shift
-    return crossing
+    return cut
+
+
+@compiled
+def _crossing(left: float, right: float) -> float:
+    """Where a distance that is positive in the middle becomes negative; 1 where it does not."""
+    if left >= -TOLERANCE and right >= -TOLERANCE:
+        return 1.0
+    return min(max(left / (left - right), 0.02), 0.98)
+
+
+@compiled
+def _contrast(color: Floats, k: int) -> float:
+    """Largest jump of a channel at the border below band k."""
+    contrast = 0.0
+    for c in range(3):
+        contrast = max(contrast, abs(color[k + 1, c] - color[k, c]))
+    return contrast
 
 
 @compiled

@@ -19,34 +19,34 @@ INSIDE = 1e-6
 
 
 @compiled
-def fill(scene: Tables, placed: Placed, bands: Bands, left: float, right: float) -> bool:
-    """Bands of the slab between two columns [px]; returns whether borders cross in it."""
+def fill(scene: Tables, placed: Placed, bands: Bands, left: float, right: float) -> float:
+    """Bands of the slab between two columns [px]; returns where borders cross in it, as `paint` does."""
     focal, principal = scene.lens[0], scene.lens[1]
     ka, kb = (left + INSIDE - principal) / focal, (right - INSIDE - principal) / focal
     middle = 0.5 * (left + right)
     start(bands, scene.backdrop)
-    crossing = _floor(scene, placed, bands, ka, kb)
+    cut = _floor(scene, placed, bands, ka, kb)
     if placed.window[0] <= middle <= placed.window[1]:
         # In a room that is not convex a wall may stand before the robot.
         robot = 0.0 if scene.convex else robot_depth(scene, placed, 0.5 * (ka + kb))
-        crossing |= _walls(scene, placed, bands, ka, kb, middle, robot, math.inf)
-        crossing |= _posts(scene, placed, bands, ka, kb, middle, True)
-        crossing |= paint_robot(scene, placed, bands, ka, kb, middle)
+        cut = min(cut, _walls(scene, placed, bands, ka, kb, middle, robot, math.inf))
+        cut = min(cut, _posts(scene, placed, bands, ka, kb, middle, True))
+        cut = min(cut, paint_robot(scene, placed, bands, ka, kb, middle))
         if not scene.convex:
-            crossing |= _walls(scene, placed, bands, ka, kb, middle, -math.inf, robot)
+            cut = min(cut, _walls(scene, placed, bands, ka, kb, middle, -math.inf, robot))
     else:
-        crossing |= _walls(scene, placed, bands, ka, kb, middle, -math.inf, math.inf)
-        crossing |= _posts(scene, placed, bands, ka, kb, middle, True)
-    crossing |= _posts(scene, placed, bands, ka, kb, middle, False)
-    return crossing
+        cut = min(cut, _walls(scene, placed, bands, ka, kb, middle, -math.inf, math.inf))
+        cut = min(cut, _posts(scene, placed, bands, ka, kb, middle, True))
+    cut = min(cut, _posts(scene, placed, bands, ka, kb, middle, False))
+    return cut
 
 
 @compiled
-def _floor(scene: Tables, placed: Placed, bands: Bands, ka: float, kb: float) -> bool:
+def _floor(scene: Tables, placed: Placed, bands: Bands, ka: float, kb: float) -> float:
     """The floor, which ends beyond the walls."""
     _, end_a, _ = cut_box(placed.corners[FLOOR], ka)
     _, end_b, _ = cut_box(placed.corners[FLOOR], kb)
-    crossing = paint_face(
+    cut = paint_face(
         bands,
         row_of(scene, 0.0, end_a),
         row_of(scene, 0.0, end_b),
@@ -55,21 +55,24 @@ def _floor(scene: Tables, placed: Placed, bands: Bands, ka: float, kb: float) ->
         placed.lit[FLOOR, 4],
     )
     if scene.shadow:
-        crossing |= level_shadow(
-            scene,
-            placed,
-            bands,
-            FLOOR,
-            BY_TARGET + BY_BODY,
-            0.0,
-            ka,
-            kb,
-            scene.lens[3],
-            scene.lens[3],
-            end_a,
-            end_b,
+        cut = min(
+            cut,
+            level_shadow(
+                scene,
+                placed,
+                bands,
+                FLOOR,
+                BY_TARGET + BY_BODY,
+                0.0,
+                ka,
+                kb,
+                scene.lens[3],
+                scene.lens[3],
+                end_a,
+                end_b,
+            ),
         )
-    return crossing
+    return cut
 
 
 @compiled
@@ -82,9 +85,9 @@ def _walls(
     middle: float,
     begin: float,
     end: float,
-) -> bool:
+) -> float:
     """Walls that are entered between two depths [m]."""
-    crossing = False
+    cut = 1.0
     first_wall, boxes = MARKERS + scene.markers, scene.boxes
     hidden = end
     while True:  # the farthest one that has not been painted
@@ -99,24 +102,27 @@ def _walls(
                 if first < nearest_depth:
                     nearest, nearest_depth = q, first
         if wall < 0:
-            return crossing
+            return cut
         if scene.eye[2] <= scene.heights[wall, 1]:  # the nearest hides all others
-            return crossing | paint_box(scene, placed, bands, nearest, ka, kb)
-        crossing |= paint_box(scene, placed, bands, wall, ka, kb)
+            return min(cut, paint_box(scene, placed, bands, nearest, ka, kb))
+        cut = min(cut, paint_box(scene, placed, bands, wall, ka, kb))
         hidden = depth
 
 
 @compiled
 def _posts(
     scene: Tables, placed: Placed, bands: Bands, ka: float, kb: float, middle: float, behind: bool
-) -> bool:
+) -> float:
     """What stands below the sensors: before or behind the robot."""
-    crossing = False
+    cut = 1.0
     for n in range(scene.post_count):
         farther = placed.posts[n, 0] > placed.target[0]
         if farther == behind and placed.post_span[n, 0] <= middle <= placed.post_span[n, 1]:
             size = (scene.posts[n, 2], 0.0, scene.posts[n, 3])
-            crossing |= tube(
-                scene, placed, bands, placed.posts[n], size, scene.post_color, BY_TARGET + BY_BODY, ka, kb
+            cut = min(
+                cut,
+                tube(
+                    scene, placed, bands, placed.posts[n], size, scene.post_color, BY_TARGET + BY_BODY, ka, kb
+                ),
             )
-    return crossing
+    return cut

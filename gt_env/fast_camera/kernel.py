@@ -16,7 +16,7 @@ from gt_env.fast_camera.tables import Tables
 ROBOT_STEP, WHEEL_STEP = 1.0, 1.0
 """Widest slab in which robot and wheels are drawn [px]."""
 NARROWEST = 0.04
-"""Slabs in which borders cross are halved down to this width [px]."""
+"""Slabs in which borders cross are cut there, down to this width [px]."""
 SLIVER = 1e-4
 """Edges closer together than this are one [px]."""
 
@@ -49,8 +49,10 @@ def expose(
         step = _widest(scene, placed, left)
         if step < width:  # something curved: pixel by pixel
             right = min(right, left + step, math.floor(left + SLIVER) + 1.0)
-        while fill(scene, placed, bands, left, right) and right - left > NARROWEST:
-            right = left + 0.5 * (right - left)
+        cut = fill(scene, placed, bands, left, right)
+        while cut < 1.0 and right - left > 1.01 * NARROWEST:
+            right = left + max(cut * (right - left), NARROWEST)
+            cut = fill(scene, placed, bands, left, right)
         deposit(bands, sums, left, right, share)
         left = right
 

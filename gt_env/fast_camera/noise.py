@@ -30,7 +30,7 @@ def add_noise(rgb: NDArray[np.uint8], sigma: float, rng: np.random.Generator) ->
     """
     words = -(-rgb.size // 4)
     bits = rng.integers(0, np.iinfo(np.uint64).max, words, np.uint64, endpoint=True).view(np.uint16)
-    noise = _quantiles(sigma).take(bits[: rgb.size], mode="wrap").reshape(rgb.shape)
+    noise = _look_up(bits[: rgb.size].reshape(len(rgb), -1), _quantiles(sigma)).reshape(rgb.shape)
     return np.asarray(cv2.add(rgb, noise, dtype=cv2.CV_8U), np.uint8)
 
 
@@ -44,3 +44,21 @@ def _quantiles(sigma: float) -> NDArray[np.int16]:
     table = np.concatenate([-whole[::-1], whole]).astype(np.int16)
     table.setflags(write=False)
     return table
+
+
+def _look_up(bits: NDArray[np.uint16], table: NDArray[np.int16]) -> NDArray[np.int16]:
+    """Entries of the table, of the same shape (rows, columns) as the bits."""
+    if _wide_tables():
+        return np.asarray(cv2.LUT(bits, table), np.int16)
+    return table.take(bits, mode="wrap")
+
+
+@lru_cache(maxsize=1)
+def _wide_tables() -> bool:
+    """Whether OpenCV looks 16 bits up, which it has learned lately and does twice as fast as numpy."""
+    table = np.arange(-(1 << 15), 1 << 15).astype(np.int16)
+    bits = np.array([[0, 1, 40000, 65535]], np.uint16)
+    try:
+        return np.array_equal(cv2.LUT(bits, table), table[bits])
+    except cv2.error:
+        return False

@@ -35,7 +35,7 @@ def level_shadow(
     first_b: float,
     last_a: float,
     last_b: float,
-) -> bool:
+) -> float:
     """Shadows on the upper face of a box between two depths."""
     clear_shadows(placed)
     km = 0.5 * (ka + kb)
@@ -56,7 +56,7 @@ def level_shadow(
             low_a, low_b = row_of(scene, z, max(begin_a, first_a)), row_of(scene, z, max(begin_b, first_b))
             add_shadow(placed, lamp, top_a, top_b, low_a, low_b)
     if placed.shadow_count == 0:
-        return False
+        return 1.0
     top_a, top_b = row_of(scene, z, last_a), row_of(scene, z, last_b)
     low_a, low_b = row_of(scene, z, first_a), row_of(scene, z, first_b)
     return paint_shadows(
@@ -74,7 +74,7 @@ def upright_shadow(
     casts: int,
     at: tuple[float, float, float, float],
     rows: tuple[float, float, float, float],
-) -> bool:
+) -> float:
     """Shadows on an upright face: its depths and slopes k at the slab's sides, its upper and lower rows."""
     depth_a, depth_b, ka, kb = at
     depth, km = 0.5 * (depth_a + depth_b), 0.5 * (ka + kb)
@@ -99,7 +99,7 @@ def upright_shadow(
                 min(row_of(scene, low_b, depth_b), rows[3]),
             )
     if placed.shadow_count == 0:
-        return False
+        return 1.0
     return paint_shadows(scene, placed, bands, albedo, facing, rows[0], rows[1], rows[2], rows[3])
 
 

@@ -81,7 +81,7 @@ class FastRenderer:
                 expose_layers(self._scene, self._placed, self._sums, share)
         rows = self._shape[0]
         if not COMPILED:
-            picture = (np.cumsum(self._sums[:rows], axis=0) + 0.5).astype(np.uint8)
+            picture = (np.cumsum(self._sums[:rows], axis=0) + np.float32(0.5)).astype(np.uint8)
             self._sums[:] = 0.0
             return picture
         picture = np.empty(self._shape, np.uint8)

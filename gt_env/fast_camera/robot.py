@@ -32,40 +32,40 @@ def robot_depth(scene: Tables, placed: Placed, k: float) -> float:
 
 
 @compiled
-def paint_robot(scene: Tables, placed: Placed, bands: Bands, ka: float, kb: float, middle: float) -> bool:
+def paint_robot(scene: Tables, placed: Placed, bands: Bands, ka: float, kb: float, middle: float) -> float:
     """The robot with its target."""
-    crossing = False
+    cut = 1.0
     eye_y, eye_z = placed.robot[1], scene.eye[2]
     above_body = eye_z > scene.target[3]
     if not above_body:
-        crossing |= _target(scene, placed, bands, ka, kb, middle)
+        cut = min(cut, _target(scene, placed, bands, ka, kb, middle))
     for i in range(2):  # wheels on the far side of the body
         side = 1.0 if scene.wheels[i, 0] > 0.0 else -1.0
         if side * eye_y <= side * scene.wheels[i, 0] - 0.5 * scene.wheels[i, 2]:
-            crossing |= paint_wheel(scene, placed, bands, i, ka, kb, middle)
+            cut = min(cut, paint_wheel(scene, placed, bands, i, ka, kb, middle))
     if eye_z > scene.heights[BODY, 0]:
-        crossing |= paint_casters(scene, placed, bands, ka, kb)
+        cut = min(cut, paint_casters(scene, placed, bands, ka, kb))
     if placed.span[BODY, 0] <= middle <= placed.span[BODY, 1]:
-        crossing |= paint_box(scene, placed, bands, BODY, ka, kb)
+        cut = min(cut, paint_box(scene, placed, bands, BODY, ka, kb))
     if eye_z <= scene.heights[BODY, 0]:
-        crossing |= paint_casters(scene, placed, bands, ka, kb)
+        cut = min(cut, paint_casters(scene, placed, bands, ka, kb))
     if above_body and scene.target[3] < 2 * scene.wheels[0, 1]:
         # The target reaches below the wheels' tops, so that it is beside them, not above.
-        crossing |= _target(scene, placed, bands, ka, kb, middle)
+        cut = min(cut, _target(scene, placed, bands, ka, kb, middle))
     for i in range(2):
         side = 1.0 if scene.wheels[i, 0] > 0.0 else -1.0
         if side * eye_y > side * scene.wheels[i, 0] - 0.5 * scene.wheels[i, 2]:
-            crossing |= paint_wheel(scene, placed, bands, i, ka, kb, middle)
+            cut = min(cut, paint_wheel(scene, placed, bands, i, ka, kb, middle))
     if above_body and scene.target[3] >= 2 * scene.wheels[0, 1]:
-        crossing |= _target(scene, placed, bands, ka, kb, middle)
-    return crossing
+        cut = min(cut, _target(scene, placed, bands, ka, kb, middle))
+    return cut
 
 
 @compiled
-def _target(scene: Tables, placed: Placed, bands: Bands, ka: float, kb: float, middle: float) -> bool:
+def _target(scene: Tables, placed: Placed, bands: Bands, ka: float, kb: float, middle: float) -> float:
     """The cylinder and what stands out of it of the markers, the farther ones first."""
     size = (scene.target[2], scene.target[3], scene.target[4])
-    crossing = tube(scene, placed, bands, placed.target, size, scene.target_color, BY_BODY, ka, kb)
+    cut = tube(scene, placed, bands, placed.target, size, scene.target_color, BY_BODY, ka, kb)
     wall_a, _ = cut_disc(placed.target[0], placed.target[1], size[0], ka)
     wall_b, _ = cut_disc(placed.target[0], placed.target[1], size[0], kb)
     hidden = math.inf
@@ -77,9 +77,9 @@ def _target(scene: Tables, placed: Placed, bands: Bands, ka: float, kb: float, m
                 if depth < first < hidden:
                     marker, depth = q, first
         if marker < 0:
-            return crossing
+            return cut
         first_a, last_a, side = cut_box(placed.corners[marker], ka)
         first_b, last_b, _ = cut_box(placed.corners[marker], kb)
         last_a, last_b = min(last_a, wall_a), min(last_b, wall_b)
-        crossing |= prism(scene, placed, bands, marker, side, ka, kb, first_a, first_b, last_a, last_b)
+        cut = min(cut, prism(scene, placed, bands, marker, side, ka, kb, first_a, first_b, last_a, last_b))
         hidden = depth

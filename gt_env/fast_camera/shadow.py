@@ -157,9 +157,9 @@ def paint_shadows(
     top_b: float,
     low_a: float,
     low_b: float,
-) -> bool:
+) -> float:
     """Paint the shadows noted on a face between two borders; `facing` (L,) are its cosines to the lamps."""
-    crossing = False
+    cut = 1.0
     reached = top_a + top_b
     from_a, from_b = top_a, top_b
     while True:  # from border to border, down the face
@@ -189,7 +189,7 @@ def paint_shadows(
                 blue += facing[lamp] * scene.lamp_color[lamp, 2]
         if dark:
             rgb = (min(red * albedo[0], 255.0), min(green * albedo[1], 255.0), min(blue * albedo[2], 255.0))
-            crossing |= paint(bands, from_a, from_b, to_a, to_b, rgb)
+            cut = min(cut, paint(bands, from_a, from_b, to_a, to_b, rgb))
         if next_mid >= low_a + low_b:
-            return crossing
+            return cut
         reached, from_a, from_b = next_mid, to_a, to_b

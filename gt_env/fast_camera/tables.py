@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 from typing import Any, Protocol, cast
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from estimators.errors import ConfigError
 from estimators.room import Room
 from gt_env.config import EnvConfig
+from gt_env.fast_camera.compiling import COMPILED
 from gt_env.fast_camera.light import planck_gain
 from gt_env.fast_camera.solids import (
     Floats,
@@ -212,4 +214,8 @@ def _check(config: EnvConfig, room: Room) -> None:
 
 def record(dtype: np.dtype[np.void]) -> Any:
     """One zeroed record whose fields are attributes."""
-    return np.zeros(1, dtype).view(np.recarray)[0]
+    if COMPILED:
+        return np.zeros(1, dtype).view(np.recarray)[0]
+    # Without a compiler there is nobody to take an address, and plain attributes are much faster.
+    fields = {name: np.zeros(1, dtype[name])[0] for name in dtype.names or ()}
+    return SimpleNamespace(**{n: v if isinstance(v, np.ndarray) else v.item() for n, v in fields.items()})

@@ -13,7 +13,7 @@ from gt_env.fast_camera.tables import BODY, MARKERS, Tables
 
 
 @compiled
-def paint_box(scene: Tables, placed: Placed, bands: Bands, q: int, ka: float, kb: float) -> bool:
+def paint_box(scene: Tables, placed: Placed, bands: Bands, q: int, ka: float, kb: float) -> float:
     """An upright box: the side that faces the eye, its top or its underside."""
     first_a, last_a, side = cut_box(placed.corners[q], ka)
     first_b, last_b, _ = cut_box(placed.corners[q], kb)
@@ -33,42 +33,46 @@ def prism(
     first_b: float,
     last_a: float,
     last_b: float,
-) -> bool:
+) -> float:
     """A box between two depths at either side of the slab."""
     if min(last_a, last_b) <= scene.lens[3] or first_a >= last_a or first_b >= last_b:
-        return False
+        return 1.0
     low, high, eye = scene.heights[q, 0], scene.heights[q, 1], scene.eye[2]
     top_a, top_b = row_of(scene, high, first_a), row_of(scene, high, first_b)
     low_a, low_b = row_of(scene, low, first_a), row_of(scene, low, first_b)
-    crossing = paint_face(bands, top_a, top_b, low_a, low_b, placed.lit[q, side])
+    cut = paint_face(bands, top_a, top_b, low_a, low_b, placed.lit[q, side])
     casts = 0
     if scene.shadow and not MARKERS <= q < MARKERS + scene.markers:
         casts = BY_TARGET if q == BODY else BY_TARGET + BY_BODY
-        crossing |= upright_shadow(
-            scene,
-            placed,
-            bands,
-            scene.colors[q],
-            placed.facing[q, side],
-            casts,
-            (first_a, first_b, ka, kb),
-            (top_a, top_b, low_a, low_b),
+        cut = min(
+            cut,
+            upright_shadow(
+                scene,
+                placed,
+                bands,
+                scene.colors[q],
+                placed.facing[q, side],
+                casts,
+                (first_a, first_b, ka, kb),
+                (top_a, top_b, low_a, low_b),
+            ),
         )
     if eye > high:
         back_a, back_b = row_of(scene, high, last_a), row_of(scene, high, last_b)
-        crossing |= paint_face(bands, back_a, back_b, top_a, top_b, placed.lit[q, 4])
+        cut = min(cut, paint_face(bands, back_a, back_b, top_a, top_b, placed.lit[q, 4]))
         if casts:
-            crossing |= level_shadow(
-                scene, placed, bands, q, casts, high, ka, kb, first_a, first_b, last_a, last_b
+            cut = min(
+                cut,
+                level_shadow(scene, placed, bands, q, casts, high, ka, kb, first_a, first_b, last_a, last_b),
             )
     if eye < low:
         back_a, back_b = row_of(scene, low, last_a), row_of(scene, low, last_b)
-        crossing |= paint_face(bands, low_a, low_b, back_a, back_b, placed.lit[q, 5])
-    return crossing
+        cut = min(cut, paint_face(bands, low_a, low_b, back_a, back_b, placed.lit[q, 5]))
+    return cut
 
 
 @compiled
-def paint_face(bands: Bands, top_a: float, top_b: float, low_a: float, low_b: float, rgb: Floats) -> bool:
+def paint_face(bands: Bands, top_a: float, top_b: float, low_a: float, low_b: float, rgb: Floats) -> float:
     """Paint a flat face (3,) RGB."""
     return paint(bands, top_a, top_b, low_a, low_b, (rgb[0], rgb[1], rgb[2]))
 
@@ -84,13 +88,13 @@ def tube(
     casts: int,
     ka: float,
     kb: float,
-) -> bool:
+) -> float:
     """An upright cylinder of radius, lower and upper end [m], shaded by `casts`."""
     radius, low, high = size
     km = 0.5 * (ka + kb)
     first, last = cut_disc(at[0], at[1], radius, km)
     if last <= scene.lens[3]:
-        return False
+        return 1.0
     first_a, last_a = cut_disc(at[0], at[1], radius, ka)
     first_b, last_b = cut_disc(at[0], at[1], radius, kb)
     if last_a < 0.0:
@@ -101,29 +105,32 @@ def tube(
     low_a, low_b = _bowed(scene, low, first_a, first, first_b)
     normal_depth, normal_right = (first - at[0]) / radius, (km * first - at[1]) / radius
     rgb = shade(scene, placed.lamp, albedo, normal_depth, normal_right, 0.0)
-    crossing = paint(bands, top_a, top_b, low_a, low_b, rgb)
+    cut = paint(bands, top_a, top_b, low_a, low_b, rgb)
     if scene.shadow and casts:
         for n in range(scene.lamp_count):
             placed.cosines[n] = max(normal_depth * placed.lamp[n, 0] + normal_right * placed.lamp[n, 1], 0.0)
-        crossing |= upright_shadow(
-            scene,
-            placed,
-            bands,
-            albedo,
-            placed.cosines,
-            casts,
-            (first_a, first_b, ka, kb),
-            (top_a, top_b, low_a, low_b),
+        cut = min(
+            cut,
+            upright_shadow(
+                scene,
+                placed,
+                bands,
+                albedo,
+                placed.cosines,
+                casts,
+                (first_a, first_b, ka, kb),
+                (top_a, top_b, low_a, low_b),
+            ),
         )
     if scene.eye[2] > high:
         back_a, back_b = _bowed(scene, high, last_a, last, last_b)
         rgb = shade(scene, placed.lamp, albedo, 0.0, 0.0, 1.0)
-        crossing |= paint(bands, back_a, back_b, top_a, top_b, rgb)
+        cut = min(cut, paint(bands, back_a, back_b, top_a, top_b, rgb))
     if scene.eye[2] < low:
         back_a, back_b = _bowed(scene, low, last_a, last, last_b)
         rgb = shade(scene, placed.lamp, albedo, 0.0, 0.0, -1.0)
-        crossing |= paint(bands, low_a, low_b, back_a, back_b, rgb)
-    return crossing
+        cut = min(cut, paint(bands, low_a, low_b, back_a, back_b, rgb))
+    return cut
 
 
 @compiled

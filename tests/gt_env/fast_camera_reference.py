@@ -129,7 +129,7 @@ class Tracer:
         return np.minimum(albedo * share, 255.0)
 
     def window(self, column, row, width, height, samples=64) -> np.ndarray:
-        """Mean colours (height, width, 3) over samples x samples points in every pixel that is not uniform."""
+        """Mean colours (height, width, 3) over samples x samples points in pixels that are not uniform."""
         picture = np.zeros((height, width, 3))
         coarse = 5
         fine = (np.arange(samples) + 0.5) / samples

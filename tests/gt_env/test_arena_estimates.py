@@ -9,7 +9,7 @@ from estimators import GroundTruthWrapper
 
 
 def errors_at(make, preset, pose, steps, **config):
-    env = GroundTruthWrapper(make({"preset": preset, **config}))
+    env = GroundTruthWrapper(make({"preset": preset, **config}), method="thesis")
     env.reset(seed=7, options={"pose": (*pose, 0.0)})
     errors = []
     for i in range(steps):
@@ -56,7 +56,9 @@ def test_without_the_fence_post_there_is_no_bias_at_e(make):
 
 
 def test_while_driving_the_answer_lags(make):
-    env = GroundTruthWrapper(make({"camera": {"enabled": False}, "lrf": {"noise_sigma": 0.01}}))
+    env = GroundTruthWrapper(
+        make({"camera": {"enabled": False}, "lrf": {"noise_sigma": 0.01}}), method="thesis"
+    )
     env.reset(seed=1, options={"pose": (-2.5, 2.0, 0.0)})
     lags = []
     for i in range(50):
@@ -69,7 +71,7 @@ def test_while_driving_the_answer_lags(make):
 
 @pytest.mark.parametrize("mount", [(0.0, 0.0), (0.05, -0.03)])
 def test_the_answer_is_the_base_wherever_the_target_is_mounted(make, drive, mount):
-    env = GroundTruthWrapper(make({"target": {"mount": list(mount), "mount_yaw_deg": 20.0}}))
+    env = GroundTruthWrapper(make({"target": {"mount": list(mount), "mount_yaw_deg": 20.0}}), method="thesis")
     env.reset(seed=1, options={"pose": (0.5, 2.0, 1.0)})
     poses = np.array([drive(env, 1)[1]["gt"]["pose"] for _ in range(30)])
 
