@@ -18,7 +18,15 @@ COMPILED: bool = _numba is not None
 
 
 def compiled(function: Function) -> Function:
-    """Compile at the first call and keep the result on disk; without numba the function as it is."""
+    """Compile at the first call and keep the result on disk; without numba the function as it is.
+
+    What is kept is renewed when the function's own file changes, not when one changes that it calls into:
+    whoever edits this package empties its `__pycache__`.
+    """
     if _numba is None:
         return function
-    return cast(Function, _numba.njit(function, cache=True, nogil=True, error_model="numpy"))
+    options = {"nogil": True, "error_model": "numpy"}
+    try:
+        return cast(Function, _numba.njit(function, cache=True, **options))
+    except RuntimeError:  # nowhere to keep it
+        return cast(Function, _numba.njit(function, **options))

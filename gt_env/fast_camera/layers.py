@@ -15,7 +15,7 @@ from gt_env.fast_camera.placed import Placed
 from gt_env.fast_camera.solids import Floats
 from gt_env.fast_camera.tables import BODY, FLOOR, MARKERS, Tables
 
-ROBOT_STEP, ROOM_STEP = 0.5, 1.0
+ROBOT_STEP, ROOM_STEP = 0.25, 1.0
 """Width of slabs with and without the robot [px]."""
 
 

@@ -42,8 +42,9 @@ class FastRenderer:
     away from what they hide from it (`tiny` leaves some, and shades the surfaces themselves); wheels and
     casters cast none, markers receive none. Nothing is cut off at the far plane.
 
-    With numba (extra `fast`) this is machine code, compiled once and kept on disk. Without it numpy draws
-    nearly the same, some thirty times slower; shadows then run as plain Python, a second for a picture.
+    With numba (extra `fast`) this is machine code, compiled once, which takes some twenty seconds, and kept on
+    disk. Without it numpy draws nearly the same, some twenty times slower; shadows then run as plain Python, a
+    third of a second for a picture.
 
     Args:
         config: What the world is.
