@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import sys
 import tempfile
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 
 from estimators.errors import ConfigError, MissingExtraError
 from estimators.poses import Array
+from gt_env.body import Body
 from gt_env.config.sections import Color, LightConfig, PhysicsConfig
 
 CONTACT_DISTANCE = 2e-5
@@ -272,91 +272,6 @@ class Engine:
         visual = p.createVisualShape(shape, **seen, rgbaColor=rgba, physicsClientId=client)
         turn = p.getQuaternionFromEuler([0, 0, yaw])
         return int(p.createMultiBody(0, collision, visual, list(centre), turn, physicsClientId=client))
-
-
-State = tuple[tuple[float, float, float], tuple[float, float, float, float]]
-"""Position of a body's centre of mass and its quaternion, as the engine gives them."""
-
-
-class Body:
-    """A robot in the engine: where its base is, and its wheels."""
-
-    def __init__(self, p: Any, client: int, number: int, joints: list[int]) -> None:
-        self._p = p
-        self._client = client
-        self.number = number
-        self.joints = joints
-        # The engine speaks of the centre of mass, which lies at a fixed offset from the base frame.
-        self._com: tuple[float, ...] = p.getDynamicsInfo(number, -1, physicsClientId=client)[3]
-
-    def place(self, x: float, y: float, yaw: float) -> None:
-        """Put the base frame on the floor at x, y [m], yaw [rad]."""
-        c, s = math.cos(yaw), math.sin(yaw)
-        dx, dy, dz = self._com
-        position = [x + c * dx - s * dy, y + s * dx + c * dy, dz]
-        turn = self._p.getQuaternionFromEuler([0, 0, yaw])
-        self._p.resetBasePositionAndOrientation(self.number, position, turn, physicsClientId=self._client)
-
-    def pose(self) -> tuple[float, float, float]:
-        """x, y [m], yaw [rad] of the base frame."""
-        return self.pose_of(self.state())
-
-    def state(self) -> State:
-        """Where the body is, as the engine says it; `pose_of` turns it into a pose."""
-        state: State = self._p.getBasePositionAndOrientation(self.number, physicsClientId=self._client)
-        return state
-
-    def pose_of(self, state: State) -> tuple[float, float, float]:
-        """x, y [m], yaw [rad] of the base frame in a state."""
-        (x, y, _), (qx, qy, qz, qw) = state
-        yaw = math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
-        c, s = math.cos(yaw), math.sin(yaw)
-        dx, dy, _ = self._com
-        return x - c * dx + s * dy, y - s * dx - c * dy, yaw
-
-    def wheel_angles(self) -> list[float]:
-        """Angles of the wheels [rad], not wrapped, in the order of their names."""
-        states = self._p.getJointStates(self.number, self.joints, physicsClientId=self._client)
-        return [state[0] for state in states]
-
-    def command_wheels(
-        self, angles: Sequence[float], speeds: Sequence[float], gain: float, torque: float
-    ) -> None:
-        """Run the wheels through angles [rad] at speeds [rad/s] with at most a torque [N m].
-
-        `gain` is the share of a difference in angle that is made up for within one tick.
-        """
-        n = len(self.joints)
-        self._p.setJointMotorControlArray(
-            self.number,
-            self.joints,
-            self._p.POSITION_CONTROL,
-            targetPositions=angles,
-            targetVelocities=speeds,
-            positionGains=[gain] * n,
-            velocityGains=[1.0] * n,
-            forces=[torque] * n,
-            physicsClientId=self._client,
-        )
-
-    def may_sleep(self, allowed: bool) -> None:
-        """Let the engine stop moving the body once it rests, or wake it up and keep it awake.
-
-        What a solver leaves over makes a robot at rest creep by tenths of a millimetre a second.
-        """
-        p = self._p
-        p.changeDynamics(
-            self.number,
-            -1,
-            activationState=p.ACTIVATION_STATE_ENABLE_SLEEPING
-            if allowed
-            else p.ACTIVATION_STATE_DISABLE_SLEEPING | p.ACTIVATION_STATE_WAKE_UP,
-            physicsClientId=self._client,
-        )
-
-    def touches(self, other: int) -> bool:
-        """Whether it is in contact with another body."""
-        return bool(self._p.getContactPoints(self.number, other, physicsClientId=self._client))
 
 
 @lru_cache(maxsize=4)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from estimators.poses import Array, Pose2
+from gt_env.body import State
 from gt_env.config import EnvConfig
-from gt_env.engine import Engine, State
+from gt_env.engine import Engine
 from gt_env.robot_model import WHEEL_JOINTS, differential_robot
 
 INTEGRAL_GAIN = 0.3

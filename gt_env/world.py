@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from estimators.messages import Message
 from estimators.poses import Pose2
 from estimators.thesis import ThesisTracker
+from gt_env.body import State
 from gt_env.config import EnvConfig
-from gt_env.engine import Engine, State
+from gt_env.engine import Engine
 from gt_env.robot import DifferentialRobot
 from gt_env.scene import build_scene
 from gt_env.sensors.camera import Camera

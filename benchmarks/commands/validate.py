@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated
 
@@ -14,15 +13,17 @@ from benchmarks.commands.options import (
     ConfigOption,
     EngineOption,
     JobsOption,
+    NoFiguresOption,
     OutOption,
     QuickOption,
     SeedOption,
     SetOption,
     configuration,
+    require_report_extra,
 )
 from benchmarks.engines import Engine
 from benchmarks.output import check_writable, staged
-from estimators.errors import ConfigError, MissingExtraError
+from estimators.errors import ConfigError
 from estimators.protocol import METHODS
 
 MethodOption = Annotated[
@@ -30,9 +31,6 @@ MethodOption = Annotated[
     typer.Option(
         "--method", metavar="NAME", help=f"A ground-truth method ({', '.join(METHODS)}); repeatable."
     ),
-]
-NoFiguresOption = Annotated[
-    bool, typer.Option("--no-figures", help="Write report.json only; needs no plotting packages.")
 ]
 CamerasOption = Annotated[
     bool,
@@ -67,7 +65,7 @@ def validate(
     methods, settings = _methods(method), configuration(config, overrides)
     place = Engine(name=engine, address=address)
     if not no_figures:
-        _require_report_extra()
+        require_report_extra()
     check_writable(out)
     plan = plan_validation(settings, methods, seed=seed, quick=quick)
     camera_plan = plan_cameras(settings, methods, seed=seed, quick=quick) if cameras else None
@@ -103,11 +101,3 @@ def _methods(names: list[str] | None) -> tuple[str, ...]:
         if name not in METHODS:
             raise ConfigError(f"--method {name}: must be one of {', '.join(METHODS)}")
     return tuple(dict.fromkeys(names or ["thesis"]))
-
-
-def _require_report_extra() -> None:
-    """Refuse before anything is simulated what would fail when figures are drawn."""
-    for package in ("matplotlib", "jinja2"):
-        if find_spec(package) is None:
-            what = "the report with its figures (--no-figures goes without)"
-            raise MissingExtraError(what, package, "report")

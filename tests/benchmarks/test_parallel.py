@@ -62,6 +62,8 @@ def test_steps_are_counted_in_the_task_s_own_slot(tmp_path):
 def test_where_the_counters_cannot_be_reached_steps_are_not_counted(tmp_path):
     StepCounter(tmp_path / "elsewhere", 0)()
 
+    assert not (tmp_path / "elsewhere").exists()
+
 
 @pytest.mark.slow
 def test_ctrl_c_ends_a_sweep_promptly(tmp_path):

@@ -60,7 +60,10 @@ def test_panels(tmp_path, moving, heading, known):
 
 def test_nothing_found_still_gives_a_figure():
     recording = Recording(origin="x", messages=MessageLog([sighting(0.0)]))
-    replay_figure(recording, replay(recording, "thesis", CALIBRATION), CALIBRATION)
+    nothing = replay(recording, "thesis", CALIBRATION)
+
+    assert not nothing.estimates
+    assert replay_figure(recording, nothing, CALIBRATION).axes
 
 
 def test_map_is_to_scale_and_an_ellipse_follows_its_covariance():

@@ -35,7 +35,7 @@ def test_an_unknown_method_is_refused(tmp_path):
 
 def test_a_missing_extra_is_named_before_anything_is_simulated(tmp_path, monkeypatch):
     refuse_to_simulate(monkeypatch)
-    monkeypatch.setattr(command, "find_spec", lambda name: None)
+    monkeypatch.setattr("benchmarks.commands.options.find_spec", lambda name: None)
     with pytest.raises(MissingExtraError, match=r"--no-figures.*gt-env\[report\]"):
         command.validate(out=tmp_path / "out")
     assert not (tmp_path / "out").exists()
