@@ -120,8 +120,18 @@ def script(name: str, config: EnvConfig) -> list[Segment]:
         ConfigError: If the robot would come too near to a wall, or its wheels cannot turn as fast.
     """
     drive, scale = DRIVES[name], room_scale(config)
-    robot, step = config.robot, config.timing.step
     segments = _segments([(forward * scale, turn) for forward, turn in drive.moves], config)
+    check_drive(name, start_pose(name, config), segments, config)
+    return segments
+
+
+def check_drive(name: str, start: Pose2, segments: list[Segment], config: EnvConfig) -> None:
+    """Refuse what the wheels or the room do not allow.
+
+    Raises:
+        ConfigError: If the robot would come too near to a wall, or its wheels cannot turn as fast.
+    """
+    robot = config.robot
     fastest = max(max(abs(left), abs(right)) for _, left, right in segments)
     if fastest > robot.max_wheel_speed:
         raise ConfigError(
@@ -129,14 +139,13 @@ def script(name: str, config: EnvConfig) -> list[Segment]:
             f"drive {name!r}"
         )
     room = config.room.in_station_frame()
-    driven = ideal_poses(start_pose(name, config), segments, config, period=step)
+    driven = ideal_poses(start, segments, config, period=config.timing.step)
     nearest = min(room.clearance((x, y)) for x, y, _ in driven)
     if nearest < MARGIN:
         raise ConfigError(
-            f"room.vertices: the drive {name!r}, shrunk by {scale:.2f}, comes as near as {nearest:.2f} m to "
-            f"a wall or leaves the room; it needs {MARGIN} m"
+            f"room.vertices: the drive {name!r}, shrunk by {room_scale(config):.2f}, comes as near as "
+            f"{nearest:.2f} m to a wall or leaves the room; it needs {MARGIN} m"
         )
-    return segments
 
 
 def start_pose(name: str, config: EnvConfig) -> Pose2:
