@@ -31,6 +31,15 @@ def smooth(
     for message in messages:
         if message.source.startswith("station/"):
             estimator.update(message)
+    return looking_back(estimator)
+
+
+def looking_back(estimator: FusedEstimator) -> list[PoseEstimate]:
+    """The same from an estimator that has had all messages.
+
+    Args:
+        estimator: One that keeps everything (`keep=True`), else there is little to look back on.
+    """
     tracks = estimator.tracks
     found: dict[float, PoseEstimate] = {}
     for i, track in enumerate(tracks):

@@ -24,7 +24,7 @@ class Moment:
 
     Attributes:
         reading: What was read.
-        accepted: Whether it passed the gate.
+        innovation: What it said beyond what was expected; None for the first one.
         x: States per mode (M, n).
         P: Their covariances (M, n, n).
         weights: Probabilities of the modes (M,).
@@ -32,11 +32,16 @@ class Moment:
     """
 
     reading: Reading
-    accepted: bool
+    innovation: Innovation | None
     x: Array
     P: Array
     weights: Array
     latest: dict[type, Reading]
+
+    @property
+    def accepted(self) -> bool:
+        """Whether the reading passed the gate."""
+        return self.innovation is None or self.innovation.accepted
 
 
 class Track:
@@ -68,7 +73,7 @@ class Track:
         self._filter.update(first.z, first.expected, first.R, first.angles, np.inf)
         self.start = self._filter.combined()
         self._passed: list[Moment] | None = [] if keep else None
-        self._moments = [self._moment(first, True, {PositionReading: first})]
+        self._moments = [self._moment(first, None, {PositionReading: first})]
         self._ahead: tuple[Moment, float] | None = None  # from which moment to what time the filter is now
 
     @property
@@ -128,9 +133,7 @@ class Track:
             velocities = self._filter.model.velocities(self._filter.x)
             self._filter.forget(reading.biases, reading.kept(before, velocities))
         innovation = self._filter.update(reading.z, reading.expected, reading.R, reading.angles, GATE)
-        self._moments.append(
-            self._moment(reading, innovation.accepted, {**last.latest, type(reading): reading})
-        )
+        self._moments.append(self._moment(reading, innovation, {**last.latest, type(reading): reading}))
         return innovation
 
     def _predict(self, moment: Moment, stamp: float) -> None:
@@ -142,6 +145,6 @@ class Track:
         f.predict(stamp - moment.reading.stamp)
         self._ahead = moment, stamp
 
-    def _moment(self, reading: Reading, accepted: bool, latest: dict[type, Reading]) -> Moment:
+    def _moment(self, reading: Reading, innovation: Innovation | None, latest: dict[type, Reading]) -> Moment:
         f = self._filter
-        return Moment(reading, accepted, f.x, f.P, f.weights, latest)
+        return Moment(reading, innovation, f.x, f.P, f.weights, latest)
