@@ -29,7 +29,7 @@ from estimators.room import Room
 from estimators.thesis import ThesisEstimator
 
 if TYPE_CHECKING:
-    from estimators.wrappers import GroundTruthWrapper
+    from estimators.wrappers import GroundTruthWrapper, LocalizerWrapper
 
 __all__ = [
     "METHODS",
@@ -43,6 +43,7 @@ __all__ = [
     "ImageFrame",
     "ImuSample",
     "LaserScan",
+    "LocalizerWrapper",
     "LrfCalibration",
     "MeasurementError",
     "Message",
@@ -62,8 +63,8 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     """Import the wrappers on first use: only they need Gymnasium."""
-    if name == "GroundTruthWrapper":
-        from estimators.wrappers import GroundTruthWrapper
+    if name in ("GroundTruthWrapper", "LocalizerWrapper"):
+        from estimators import wrappers
 
-        return GroundTruthWrapper
+        return getattr(wrappers, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

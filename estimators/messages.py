@@ -21,6 +21,8 @@ from estimators.poses import Array, Pose2
 STATION_LRF: Final = "station/lrf"
 STATION_CAMERA: Final = "station/camera"
 ROBOT_ENCODERS: Final = "robot/encoders"
+ROBOT_IMU: Final = "robot/imu"
+ROBOT_LIDAR: Final = "robot/lidar"
 
 NO_COVARIANCE: Final = 1e6
 """Variance that stands for "nothing known" before the first fix [m^2, rad^2]."""
@@ -216,7 +218,7 @@ class WheelOdometry(Message):
 class ImuSample(Message):
     """Rate of turn about z [rad/s] and acceleration (2,) along the robot's x and y [m/s^2]."""
 
-    source: str = "robot/imu"
+    source: str = ROBOT_IMU
     yaw_rate: float
     acceleration: Array = field(default_factory=lambda: np.zeros(2))
 

@@ -9,8 +9,11 @@ from gymnasium.utils import RecordConstructorArgs
 
 from estimators.calibration import Calibration
 from estimators.errors import ConfigError
+from estimators.localizers import Guarded, embedded_localizer
+from estimators.localizers.guard import ROBOT
 from estimators.messages import PoseEstimate
-from estimators.protocol import ground_truth_estimator
+from estimators.poses import Pose2
+from estimators.protocol import Estimator, ground_truth_estimator
 
 STATION = "station/"
 
@@ -26,10 +29,44 @@ def estimate_info(estimate: PoseEstimate) -> dict[str, Any]:
     }
 
 
-class GroundTruthWrapper(
+class EstimateWrapper(
     gym.Wrapper[Any, Any, Any, Any],
     RecordConstructorArgs,
 ):
+    """Attach what an estimator answers to `info[name]`; `hears` is how the sources of its messages begin."""
+
+    name: str
+    estimator: Estimator
+    estimate: PoseEstimate
+    hears: str
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
+        """Reset environment and estimator; the first measurements are already in."""
+        observation, info = self.env.reset(seed=seed, options=options)
+        self._start(info)
+        self.estimate = PoseEstimate.unknown()
+        return observation, self._attach(info)
+
+    def _start(self, info: dict[str, Any]) -> None:
+        self.estimator.reset()
+
+    def step(self, action: Any) -> tuple[Any, SupportsFloat, bool, bool, dict[str, Any]]:
+        """Step the environment and give its new measurements to the estimator."""
+        observation, reward, terminated, truncated, info = self.env.step(action)
+        return observation, reward, terminated, truncated, self._attach(info)
+
+    def _attach(self, info: dict[str, Any]) -> dict[str, Any]:
+        base: Any = self.env.unwrapped
+        for message in base.measurements:
+            if message.source.startswith(self.hears):
+                self.estimate = self.estimator.update(message) or self.estimate
+        base.show_estimate(self.name, self.estimate)
+        return {**info, self.name: estimate_info(self.estimate)}
+
+
+class GroundTruthWrapper(EstimateWrapper):
     """Attach what the external station measures to `info[name]`.
 
     `info[name]` is a dict: `pose` (3,) x, y [m], yaw [rad] of the robot's base, `covariance` (3, 3), `stamp`
@@ -48,6 +85,8 @@ class GroundTruthWrapper(
         ConfigError: If the name is taken or reserved, or the method unknown.
     """
 
+    hears = STATION
+
     def __init__(
         self,
         env: gym.Env[Any, Any],
@@ -64,27 +103,48 @@ class GroundTruthWrapper(
         self.estimator = ground_truth_estimator(method, calibration or base.believed_calibration)
         self.estimate = PoseEstimate.unknown()
 
-    def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Any, dict[str, Any]]:
-        """Reset environment and estimator; the first measurements are already in."""
-        observation, info = self.env.reset(seed=seed, options=options)
-        self.estimator.reset()
+
+class LocalizerWrapper(EstimateWrapper):
+    """Attach what a localizer on the robot says to `info[name]`, in the same form as the ground truth.
+
+    Only messages whose source starts with `robot/` are read. Whatever the localizer does, the run goes on: an
+    exception, NaN, and answers that are late or go backwards in time are counted in `estimator.failures`, put
+    into words in `estimator.problems`, and leave the estimate invalid until the next good answer.
+
+    Args:
+        env: An environment of this project.
+        name: Key in `info`.
+        localizer: An object with `reset()` and `update(message) -> PoseEstimate | None`; a class or function
+            without arguments that makes one; a function from message to pose; or one of
+            `estimators.localizers.LOCALIZERS`, which is built from what the configuration says that the robot
+            believes and, at each reset, told the pose where it starts.
+
+    Raises:
+        ConfigError: If the name is taken or reserved, or the localizer is none of these.
+    """
+
+    hears = ROBOT
+
+    def __init__(self, env: gym.Env[Any, Any], name: str, localizer: Any) -> None:
+        RecordConstructorArgs.__init__(self, name=name, localizer=localizer)
+        gym.Wrapper.__init__(self, env)
+        _refuse_taken_name(env, name)
+        self.name = name
+        self._localizer = localizer
+        self.estimator = self._guarded(Pose2())
         self.estimate = PoseEstimate.unknown()
-        return observation, self._attach(info)
 
-    def step(self, action: Any) -> tuple[Any, SupportsFloat, bool, bool, dict[str, Any]]:
-        """Step the environment and give its new measurements to the estimator."""
-        observation, reward, terminated, truncated, info = self.env.step(action)
-        return observation, reward, terminated, truncated, self._attach(info)
+    def _guarded(self, start: Pose2) -> Guarded:
+        made = self._localizer
+        if isinstance(made, str):
+            base: Any = self.env.unwrapped
+            made = embedded_localizer(made, base.believed_robot, base.believed_map, start)
+        return Guarded(made, self.name)
 
-    def _attach(self, info: dict[str, Any]) -> dict[str, Any]:
-        base: Any = self.env.unwrapped
-        for message in base.measurements:
-            if message.source.startswith(STATION):
-                self.estimate = self.estimator.update(message) or self.estimate
-        base.show_estimate(self.name, self.estimate)
-        return {**info, self.name: estimate_info(self.estimate)}
+    def _start(self, info: dict[str, Any]) -> None:
+        if isinstance(self._localizer, str):
+            self.estimator = self._guarded(Pose2.of(info["true_pose"]))
+        self.estimator.reset()
 
 
 RESERVED_NAMES = frozenset({"true_pose", "t", "episode", "is_success", "final_info", "final_obs"})
@@ -95,7 +155,7 @@ def _refuse_taken_name(env: gym.Env[Any, Any], name: str) -> None:
     taken = set(RESERVED_NAMES)
     layer: Any = env
     while isinstance(layer, gym.Wrapper):
-        if isinstance(layer, GroundTruthWrapper):
+        if isinstance(layer, EstimateWrapper):
             taken.add(layer.name)
         layer = layer.env
     if not name or name in taken:

@@ -11,9 +11,12 @@ from numpy.typing import NDArray
 
 from estimators.calibration import Calibration
 from estimators.errors import ConfigError
+from estimators.localizers.calibration import RobotCalibration
 from estimators.messages import Message, PoseEstimate
 from estimators.poses import Array, Pose2
+from estimators.room import Room
 from gt_env.config import ConfigLike, load_config
+from gt_env.config.onboard import robot_calibration
 from gt_env.config.schema import pose_problem
 from gt_env.render.overview import Overview
 from gt_env.render.window import available as window_available
@@ -43,7 +46,11 @@ class ArenaEnv(gym.Env[Observation, Array]):
     | `image` | (H, W, 3) uint8 | | the camera's frame, RGB; not with `camera.in_observation = false` |
     | `camera_pan` | (1,) float32 | rad | the pan unit's encoder when that frame was taken |
     | `wheel_speeds` | (2,) float32 | rad/s | from the robot's encoders |
-    | `stamps` | (k,) float64 | s | when each enabled sensor measured: LRF, camera, encoders |
+    | `imu` | (3,) float32 | rad/s, m/s^2 | the robot's gyro, and its accelerometer along x and y |
+    | `robot_scan` | (beams,) float32 | m | the robot's own lidar; no return reads `onboard.lidar.range_max` |
+    | `stamps` | (k,) float64 | s | when each enabled sensor measured: LRF, camera, encoders, IMU, lidar |
+
+    IMU and lidar of the robot are off by default (`onboard.imu.enabled`, `onboard.lidar.enabled`).
 
     ## Info
     | key | shape | unit | what |
@@ -79,7 +86,10 @@ class ArenaEnv(gym.Env[Observation, Array]):
         self.config = load_config(config)
         self.render_mode = render_mode
         self.metadata = {**self.metadata, "render_fps": max(1, round(1 / self.config.timing.step))}
-        self.believed_calibration: Calibration = self.config.believed().calibration()
+        believed = self.config.believed()
+        self.believed_calibration: Calibration = believed.calibration()
+        self.believed_robot: RobotCalibration = robot_calibration(believed)
+        self.believed_map: Room = believed.room.in_station_frame(believed.onboard.lidar.height)
         self._room = self.config.room.in_station_frame()
         self._ticks = self.config.ticks(self.config.timing.step)
         self._world = World(self.config)

@@ -20,6 +20,7 @@ from gt_env.scene import build_scene
 from gt_env.sensors.camera import Camera
 from gt_env.sensors.encoders import WheelEncoders
 from gt_env.sensors.lrf import LaserRangefinder, RobotPose
+from gt_env.sensors.onboard import OnboardSensors
 from gt_env.sensors.pan_unit import PanUnit
 from gt_env.sensors.ranging import make_ranging
 from gt_env.sensors.rendering import Instant, make_rendering, target_middle
@@ -35,6 +36,7 @@ class World:
         camera: The station's camera.
         pan: Its pan unit.
         encoders: The robot's wheel encoders.
+        onboard: The robot's other sensors.
         delivered: Messages since the last `advance` began, in the order of delivery.
     """
 
@@ -49,12 +51,14 @@ class World:
         self._rendering = make_rendering(config, self.engine)
         self.pan = PanUnit(config.pan, config.timing.tick)
         self.encoders = WheelEncoders(config.robot, self.robot.wheels)
+        self.onboard = OnboardSensors(config, believed)
         self._tracker = ThesisTracker(believed.calibration(), math.radians(config.pan.dead_zone_deg))
         self._every = {
             "lrf": config.ticks(1 / config.lrf.rate),
             "camera": config.ticks(1 / config.camera.rate),
             "encoders": config.ticks(1 / config.robot.encoder_rate),
             "tracker": config.ticks(1 / config.pan.control_rate),
+            **self.onboard.every,
         }
         # Ticks between which nothing is due; a sweep or an exposure follows the robot through all of them.
         follows = config.lrf.sweep_time > 0 or config.camera.exposure_time > 0
@@ -88,7 +92,9 @@ class World:
                 parts["image"] = self.camera.space()
             parts["camera_pan"] = self.camera.pan_space()
         parts["wheel_speeds"] = self.encoders.space()
-        sensors = 1 + c.lrf.enabled + c.camera.enabled
+        for key, sensor in self.onboard.sensors.items():
+            parts[key] = sensor.space()
+        sensors = 1 + c.lrf.enabled + c.camera.enabled + len(self.onboard.sensors)
         parts["stamps"] = spaces.Box(0.0, np.finfo(np.float64).max, (sensors,), np.float64)
         return parts
 
@@ -96,6 +102,7 @@ class World:
         """Build everything anew with the robot at rest at a pose; every sensor measures once."""
         # One generator per sensor in fixed order, so that switching one off leaves the others' noise.
         for_lrf, for_camera = rng.spawn(2)
+        (for_onboard,) = for_camera.spawn(1)  # one more of `rng` itself would change its later episodes
         self.engine.reset()
         floor, self.walls = build_scene(self.engine, self.config, self.room)
         self.robot.spawn(self.engine, pose, floor)
@@ -103,6 +110,7 @@ class World:
         self.lrf.reset(for_lrf)
         self.camera.reset(for_camera)
         self.encoders.reset(self.robot.wheel_angles())
+        self.onboard.reset(for_onboard, self.robot.pose())
         self.pan.reset()
         self._tracker.reset()
         self._tick = 0
@@ -141,6 +149,9 @@ class World:
             stamps.append(self.camera.stamp)
         parts["wheel_speeds"] = self.encoders.observe()
         stamps.append(self.encoders.stamp)
+        for key, sensor in self.onboard.sensors.items():
+            parts[key] = sensor.observe()
+            stamps.append(sensor.stamp)
         parts["stamps"] = np.array(stamps)
         return parts
 
@@ -161,8 +172,12 @@ class World:
             self._track(t)
         if self.config.camera.enabled:
             self._shoot(t, pose)
+        if self.onboard.imu is not None and self._due("imu"):
+            self.delivered.append(self.onboard.imu.measure(t, pose))
         if self._due("encoders"):
             self.delivered.append(self.encoders.measure(t, self.robot.wheel_angles()))
+        if self.onboard.lidar is not None and self._due("robot_scan"):
+            self.delivered.append(self.onboard.lidar.measure(t, pose))
 
     def _scan(self, t: float, pose: RobotPose) -> None:
         due = self._due("lrf")

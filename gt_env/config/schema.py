@@ -15,10 +15,12 @@ from estimators.errors import ConfigError
 from estimators.poses import Pose2
 from estimators.room import Room
 from gt_env.config.merging import merge
+from gt_env.config.onboard import onboard_problems
 from gt_env.config.sections import (
     CameraConfig,
     LightConfig,
     LrfConfig,
+    OnboardConfig,
     PanConfig,
     PhysicsConfig,
     RobotConfig,
@@ -28,7 +30,7 @@ from gt_env.config.sections import (
     section,
 )
 
-BELIEF_SECTIONS = ("room", "target", "lrf", "camera", "pan")
+BELIEF_SECTIONS = ("room", "target", "lrf", "camera", "pan", "onboard")
 
 
 @section
@@ -36,7 +38,8 @@ class EnvConfig:
     """Everything that an environment is made of.
 
     `belief` holds what the estimators and the pan unit's tracker believe where that differs from what is: a
-    partial mapping over the sections `room`, `target`, `lrf`, `camera` and `pan`.
+    partial mapping over the sections `room`, `target`, `lrf`, `camera`, `pan` and
+    `onboard`; what stands under `onboard` is believed by the robot's own localizers.
     """
 
     room: RoomConfig = field(default_factory=RoomConfig)
@@ -48,6 +51,7 @@ class EnvConfig:
     light: LightConfig = field(default_factory=LightConfig)
     physics: PhysicsConfig = field(default_factory=PhysicsConfig)
     timing: TimingConfig = field(default_factory=TimingConfig)
+    onboard: OnboardConfig = field(default_factory=OnboardConfig)
     belief: dict[str, Any] = field(default_factory=dict)
 
     @model_validator(mode="after")
@@ -126,6 +130,7 @@ def _problems(c: EnvConfig) -> Iterator[str]:
     yield from _robot_problems(c)
     yield from _lrf_problems(c)
     yield from _camera_problems(c)
+    yield from onboard_problems(c)
     yield from _room_problems(c)
 
 
@@ -195,6 +200,10 @@ def _timing_problems(c: EnvConfig) -> Iterator[str]:
     }
     if c.camera.exposure_time:
         periods["camera.exposure_time"] = c.camera.exposure_time
+    if c.onboard.imu.enabled:
+        periods["onboard.imu.rate"] = 1 / c.onboard.imu.rate
+    if c.onboard.lidar.enabled:
+        periods["onboard.lidar.rate"] = 1 / c.onboard.lidar.rate
     for key, period in periods.items():
         ticks = period / c.timing.tick
         if math.isinf(ticks) or ticks < 0.5 or abs(ticks - round(ticks)) > 1e-6 * ticks:

@@ -33,6 +33,34 @@ def beam_bearings(config: LrfConfig) -> Array:
     return np.asarray(DEG * (config.yaw_deg + degrees), float)
 
 
+class RangeLimits(Protocol):
+    """Noise and limits of a rangefinder, as its section of the configuration has them."""
+
+    @property
+    def noise_sigma(self) -> float:
+        """Standard deviation of one range [m]."""
+
+    @property
+    def range_min(self) -> float:
+        """Nearer surfaces give no return [m]."""
+
+    @property
+    def range_max(self) -> float:
+        """Farther surfaces give no return, and no return reads this [m]."""
+
+
+def measured_ranges(
+    true: Array, limits: RangeLimits, bias: float, rng: np.random.Generator
+) -> NDArray[np.float32]:
+    """What a rangefinder makes of true distances (N,) [m], inf where there is nothing."""
+    ranges = true + bias
+    if limits.noise_sigma:
+        ranges += rng.normal(0.0, limits.noise_sigma, len(ranges))
+    np.clip(ranges, limits.range_min, limits.range_max, out=ranges)
+    ranges[(true < limits.range_min) | (true > limits.range_max)] = limits.range_max
+    return ranges.astype(np.float32)
+
+
 class LaserRangefinder:
     """Ranges to what stands in the scanning plane, with bias and Gaussian noise.
 
@@ -101,15 +129,10 @@ class LaserRangefinder:
 
     def _deliver(self, stamp: float, true: Array, time_increment: float) -> LaserScan:
         c = self._config
-        ranges = true + self._bias
-        if c.noise_sigma:
-            ranges += self._rng.normal(0.0, c.noise_sigma, len(ranges))
-        np.clip(ranges, c.range_min, c.range_max, out=ranges)
-        ranges[(true < c.range_min) | (true > c.range_max)] = c.range_max
         self._scan = LaserScan(
             stamp=stamp,
             source=STATION_LRF,
-            ranges=ranges.astype(np.float32),
+            ranges=measured_ranges(true, c, self._bias, self._rng),
             bearing_min=self._believed.bearing_min_deg * DEG,
             bearing_increment=self._believed.bearing_increment_deg * DEG,
             time_increment=time_increment,

@@ -42,16 +42,17 @@ def make_ranging(config: EnvConfig, engine: Engine) -> Ranging:
     return PlaneRanging(
         room=config.room.without_obstacles(),
         walls_cross=config.room.wall_height > c.height,
-        fixed=tuple(_obstacle_parts(config)),
-        moving=tuple(_robot_parts(config)),
+        fixed=tuple(obstacle_parts(config, c.height)),
+        moving=tuple(robot_parts(config, c.height)),
         origin=c.position,
         bearings=bearings,
     )
 
 
-def _obstacle_parts(config: EnvConfig) -> Iterator[Part]:
+def obstacle_parts(config: EnvConfig, height: float) -> Iterator[Part]:
+    """What of the obstacles crosses a scanning plane at `height` [m]."""
     for obstacle in config.room.obstacles:
-        if obstacle.shape == "urdf" or obstacle.height <= config.lrf.height:
+        if obstacle.shape == "urdf" or obstacle.height <= height:
             continue
         x, y = obstacle.position
         if obstacle.shape == "cylinder":
@@ -61,9 +62,9 @@ def _obstacle_parts(config: EnvConfig) -> Iterator[Part]:
             yield Rectangle(x=x, y=y, half_x=0.5 * length, half_y=0.5 * width, yaw=obstacle.yaw_deg * DEG)
 
 
-def _robot_parts(config: EnvConfig) -> Iterator[Part]:
-    """What of robot and target crosses the scanning plane."""
-    robot, target, z = config.robot, config.target, config.lrf.height
+def robot_parts(config: EnvConfig, z: float) -> Iterator[Part]:
+    """What of robot and target crosses a scanning plane at height `z` [m]."""
+    robot, target = config.robot, config.target
     if target.z_min < z < target.z_max:
         yield Disc(x=target.mount[0], y=target.mount[1], radius=target.radius)
     (length, width, height), (_, _, middle) = body_box(robot, target)

@@ -1,6 +1,7 @@
 """The sections of the configuration, one immutable type each. The defaults are the thesis's values."""
 
 from gt_env.config.sections.fields import Color, section
+from gt_env.config.sections.onboard import EncodersConfig, ImuConfig, LidarConfig, OnboardConfig
 from gt_env.config.sections.robot import RobotConfig, TargetConfig
 from gt_env.config.sections.room import BoxObstacle, CylinderObstacle, RoomConfig, UrdfObstacle
 from gt_env.config.sections.simulation import LampConfig, LightConfig, PhysicsConfig, TimingConfig
@@ -11,9 +12,13 @@ __all__ = [
     "CameraConfig",
     "Color",
     "CylinderObstacle",
+    "EncodersConfig",
+    "ImuConfig",
     "LampConfig",
+    "LidarConfig",
     "LightConfig",
     "LrfConfig",
+    "OnboardConfig",
     "PanConfig",
     "PhysicsConfig",
     "RobotConfig",

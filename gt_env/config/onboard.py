@@ -1,0 +1,71 @@
+"""The robot's own sensors: what must hold for them, and what the robot believes of itself."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from estimators.calibration import DEG
+from estimators.localizers.calibration import GyroCalibration, LidarCalibration, RobotCalibration
+
+if TYPE_CHECKING:
+    from gt_env.config.schema import EnvConfig
+
+
+def onboard_problems(c: EnvConfig) -> Iterator[str]:
+    """What does not fit; each names key, value and what is allowed."""
+    lidar = c.onboard.lidar
+    if not lidar.range_min < lidar.range_max:
+        yield (
+            f"onboard.lidar.range_min = {lidar.range_min}: must be below onboard.lidar.range_max = "
+            f"{lidar.range_max}"
+        )
+    if not lidar.enabled:
+        return
+    if lidar.height >= c.room.wall_height:
+        yield (
+            f"onboard.lidar.height = {lidar.height}: must be below room.wall_height = {c.room.wall_height}, "
+            f"else the lidar sees no wall"
+        )
+    (x, y), z = lidar.position, lidar.height
+    target, robot = c.target, c.robot
+    if target.z_min < z < target.z_max and math.dist((x, y), target.mount) <= target.radius:
+        yield (
+            f"onboard.lidar.position = [{x}, {y}]: must be outside the target, or onboard.lidar.height above "
+            f"target.z_max = {target.z_max}"
+        )
+    within = abs(x) <= 0.5 * robot.length and abs(y) <= 0.5 * robot.track
+    if robot.ground_clearance < z < target.z_min and within:
+        yield (
+            f"onboard.lidar.position = [{x}, {y}]: must be outside the robot's body, or "
+            f"onboard.lidar.height above target.z_min = {target.z_min}"
+        )
+    for i, obstacle in enumerate(c.room.obstacles):
+        if obstacle.shape == "urdf":
+            yield (
+                f"room.obstacles.{i} = {obstacle.file!r}: the robot's lidar cannot range a URDF: switch "
+                f"onboard.lidar off, or take an obstacle of shape 'box' or 'cylinder'"
+            )
+
+
+def robot_calibration(c: EnvConfig) -> RobotCalibration:
+    """What the robot believes of itself; `c` is the configuration as it is believed."""
+    robot, encoders, imu, lidar = c.robot, c.onboard.encoders, c.onboard.imu, c.onboard.lidar
+    left, right = (robot.wheel_radius * (1 + error) for error in encoders.radius_error)
+    return RobotCalibration(
+        wheel_radii=(left, right),
+        track=robot.track * (1 + encoders.track_error),
+        pulses_per_turn=robot.pulses_per_turn,
+        radius_sigma=encoders.radius_sigma,
+        track_sigma=encoders.track_sigma,
+        slip_sigma=encoders.slip_sigma,
+        slip_length=encoders.slip_length,
+        gyro=GyroCalibration(
+            walk=imu.gyro_walk_deg * DEG,
+            bias_sigma=math.hypot(imu.gyro_bias_deg, imu.gyro_bias_sigma_deg) * DEG,
+            bias_walk=imu.gyro_bias_walk_deg * DEG,
+            scale_sigma=math.hypot(imu.gyro_scale, imu.gyro_scale_sigma),
+        ),
+        lidar=LidarCalibration(mount=lidar.mount, noise_sigma=lidar.noise_sigma),
+    )
