@@ -193,4 +193,4 @@ class ArenaEnv(gym.Env[Observation, Array]):
         shape = self.action_space.shape
         if values.shape != shape or not np.isfinite(values).all():
             raise ConfigError(f"action = {values.tolist()}: must be {shape} finite numbers in [-1, 1]")
-        return np.asarray(np.clip(values, -1.0, 1.0), float)
+        return values.clip(-1.0, 1.0)

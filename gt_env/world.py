@@ -61,8 +61,8 @@ class World:
             **self.onboard.every,
         }
         # Ticks between which nothing is due; a sweep or an exposure follows the robot through all of them.
-        follows = config.lrf.sweep_time > 0 or config.camera.exposure_time > 0
-        self._busy = 1 if follows else math.gcd(*self._every.values())
+        self._follows = config.lrf.sweep_time > 0 or config.camera.exposure_time > 0
+        self._busy = 1 if self._follows else math.gcd(*self._every.values())
         self.delivered: list[Message] = []
         self._states: list[State] = []
         self._states_from = 0  # the tick of the first
@@ -125,14 +125,18 @@ class World:
         self.delivered.clear()
         self._states.clear()
         self._states_from = self._tick + 1
-        for _ in range(ticks):
-            self.robot.ramp()
-            self.engine.step()
-            self.pan.advance()
-            self._tick += 1
-            self._states.append(self.robot.state())
-            if self._tick % self._busy == 0:
+        # Looked up once: what stands in this loop is paid for at every tick.
+        ramp, step, turn, state = self.robot.ramp, self.engine.step, self.pan.advance, self.robot.state
+        note, busy, last = self._states.append, self._busy, self._tick + ticks
+        for tick in range(self._tick + 1, last + 1):
+            ramp()
+            step()
+            turn()
+            note(state())
+            if tick % busy == 0:
+                self._tick = tick
                 self._measure()
+        self._tick = last
 
     def observe(self) -> dict[str, NDArray[np.generic]]:
         """The last value of every sensor that is on, in fresh arrays."""
@@ -167,11 +171,11 @@ class World:
         t = self.time
         pose = self.robot.pose()
         if self.config.lrf.enabled:
-            self._scan(t, pose)
+            self._scan(t, pose, self._due("lrf"))
         if self._due("tracker"):
             self._track(t)
         if self.config.camera.enabled:
-            self._shoot(t, pose)
+            self._shoot(t, pose, self._due("camera"))
         if self.onboard.imu is not None and self._due("imu"):
             self.delivered.append(self.onboard.imu.measure(t, pose))
         if self._due("encoders"):
@@ -179,8 +183,7 @@ class World:
         if self.onboard.lidar is not None and self._due("robot_scan"):
             self.delivered.append(self.onboard.lidar.measure(t, pose))
 
-    def _scan(self, t: float, pose: RobotPose) -> None:
-        due = self._due("lrf")
+    def _scan(self, t: float, pose: RobotPose, due: bool) -> None:
         if self._tick == 0 or not self.config.lrf.sweep_time:
             # There is no past to sweep through at reset: the first scan is taken at once.
             scan = self.lrf.measure(t, pose) if due else None
@@ -199,10 +202,9 @@ class World:
         else:
             self.pan.command(angle)
 
-    def _shoot(self, t: float, pose: RobotPose) -> None:
-        now = Instant(*pose, self.pan.direction)
-        self._past.append(now)
-        if self._due("camera"):
+    def _shoot(self, t: float, pose: RobotPose, due: bool) -> None:
+        self._past.append(Instant(*pose, self.pan.direction))
+        if due:
             self.delivered.append(self.camera.measure(t, self._rendering.shoot(self._past), self.pan.encoder))
 
     def target_middle(self) -> tuple[float, float, float]:

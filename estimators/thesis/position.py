@@ -122,8 +122,8 @@ class ThesisLocalizer:
         self._radius = calibration.target.radius
         self._margin = max(k_sigma * calibration.lrf.noise_sigma, LEAST_MARGIN)
         self._average = TickedAverage()
-        self._zone_of: tuple[int, float, float] | None = None
-        self._zone = np.empty(0)
+        self._zone_of: tuple[float, ...] | None = None
+        self._zone = self._bearings = np.empty(0)
 
     def reset(self) -> None:
         """Forget all scans."""
@@ -131,8 +131,8 @@ class ThesisLocalizer:
 
     def observe(self, scan: LaserScan) -> None:
         """Take one scan."""
-        zone = np.minimum(self.zone(scan), scan.range_max)  # no return is no point
-        x, y = target_position(scan.ranges, scan.bearings, zone, self._radius)
+        zone = self.zone(scan)
+        x, y = target_position(scan.ranges, self._bearings, zone, self._radius)
         in_room = self._lrf @ Pose2(x=x, y=y)
         self._average.hold((in_room.x, in_room.y), scan.stamp)
 
@@ -141,9 +141,10 @@ class ThesisLocalizer:
         return self._average.at(stamp)
 
     def zone(self, scan: LaserScan) -> Array:
-        """Acceptance zone for the beams of a scan (N,) [m]."""
-        key = (len(scan.ranges), scan.bearing_min, scan.bearing_increment)
+        """Acceptance zone for the beams of a scan (N,) [m], within the sensor's range: no return is no point."""
+        key = (len(scan.ranges), scan.bearing_min, scan.bearing_increment, scan.range_max)
         if key != self._zone_of:
-            self._zone = acceptance_zone(self._room, self._lrf, scan.bearings, self._margin)
-            self._zone_of = key
+            self._bearings = scan.bearings
+            zone = acceptance_zone(self._room, self._lrf, self._bearings, self._margin)
+            self._zone, self._zone_of = np.minimum(zone, scan.range_max), key
         return self._zone

@@ -87,7 +87,7 @@ class Overview:
         if not c.lrf.enabled:
             return None
         scan = self._world.lrf.scan
-        reach = np.minimum(ThesisLocalizer(believed).zone(scan), c.lrf.range_max)
+        reach = ThesisLocalizer(believed).zone(scan)
         outline = np.stack([reach * np.cos(scan.bearings), reach * np.sin(scan.bearings)], axis=1)
         return believed.lrf.pose.apply(outline)
 

@@ -71,4 +71,6 @@ class Camera:
 
 
 def _noisy(picture: Made, sigma: float, seed: int) -> NDArray[np.uint8]:
-    return add_noise(picture(), sigma, np.random.Generator(np.random.SFC64(seed)))
+    noisy = add_noise(picture(), sigma, np.random.Generator(np.random.SFC64(seed)))
+    noisy.setflags(write=False)  # else the message takes a copy
+    return noisy

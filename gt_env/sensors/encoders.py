@@ -28,18 +28,23 @@ class WheelEncoders:
 
     def reset(self, angles: list[float]) -> None:
         """Start counting at the wheels' present angles [rad]."""
-        self._pulses = np.floor(np.array(angles) / self._pulse)
+        self._pulses = self._count(angles)
         self._message = WheelOdometry(stamp=0.0, source=ROBOT_ENCODERS, speeds=np.zeros(self._wheels))
 
     def measure(self, stamp: float, angles: list[float]) -> WheelOdometry:
         """Read the encoders at the wheels' present angles [rad]."""
-        pulses = np.floor(np.array(angles) / self._pulse)
         elapsed = stamp - self._message.stamp
         if elapsed > 0:
-            speeds = (pulses - self._pulses) * self._pulse / elapsed
-            self._pulses = pulses
+            before, self._pulses = self._pulses, self._count(angles)
+            turned = [now - then for now, then in zip(self._pulses, before, strict=True)]
+            speeds = np.array([pulses * self._pulse / elapsed for pulses in turned])
+            speeds.setflags(write=False)  # else the message takes a copy
             self._message = WheelOdometry(stamp=stamp, source=ROBOT_ENCODERS, speeds=speeds)
         return self._message
+
+    def _count(self, angles: list[float]) -> list[int]:
+        # Plain numbers: for two wheels arrays take longer.
+        return [math.floor(angle / self._pulse) for angle in angles]
 
     @property
     def stamp(self) -> float:
@@ -48,4 +53,4 @@ class WheelEncoders:
 
     def observe(self) -> NDArray[np.float32]:
         """The last speeds, fresh."""
-        return np.clip(self._message.speeds, -self._most, self._most).astype(np.float32)
+        return self._message.speeds.clip(-self._most, self._most).astype(np.float32)

@@ -52,13 +52,15 @@ class RangeLimits(Protocol):
 def measured_ranges(
     true: Array, limits: RangeLimits, bias: float, rng: np.random.Generator
 ) -> NDArray[np.float32]:
-    """What a rangefinder makes of true distances (N,) [m], inf where there is nothing."""
+    """What a rangefinder makes of true distances (N,) [m], inf where there is nothing; read-only."""
     ranges = true + bias
     if limits.noise_sigma:
         ranges += rng.normal(0.0, limits.noise_sigma, len(ranges))
-    np.clip(ranges, limits.range_min, limits.range_max, out=ranges)
-    ranges[(true < limits.range_min) | (true > limits.range_max)] = limits.range_max
-    return ranges.astype(np.float32)
+    ranges.clip(limits.range_min, limits.range_max, out=ranges)
+    np.copyto(ranges, limits.range_max, where=(true < limits.range_min) | (true > limits.range_max))
+    measured = ranges.astype(np.float32)
+    measured.setflags(write=False)  # else a message takes a copy
+    return measured
 
 
 class LaserRangefinder:
@@ -78,7 +80,8 @@ class LaserRangefinder:
 
     def __init__(self, config: LrfConfig, believed: LrfConfig, ranging: Ranging) -> None:
         self._config = config
-        self._believed = believed
+        self._bearing_min = believed.bearing_min_deg * DEG
+        self._bearing_increment = believed.bearing_increment_deg * DEG
         self._ranging = ranging
         self._time_increment = config.sweep_time / max(config.beams - 1, 1)
         self._beam_times = self._time_increment * np.arange(config.beams)
@@ -133,8 +136,8 @@ class LaserRangefinder:
             stamp=stamp,
             source=STATION_LRF,
             ranges=measured_ranges(true, c, self._bias, self._rng),
-            bearing_min=self._believed.bearing_min_deg * DEG,
-            bearing_increment=self._believed.bearing_increment_deg * DEG,
+            bearing_min=self._bearing_min,
+            bearing_increment=self._bearing_increment,
             time_increment=time_increment,
             range_min=c.range_min,
             range_max=c.range_max,

@@ -84,8 +84,13 @@ class FastRendering:
         start, end = exposure[0], exposure[-1]
 
         def make() -> Picture:
-            n = self._renderer.instants_needed(start, end) if start != end else 1
-            return self._renderer.picture([_between(start, end, (i + 0.5) / n) for i in range(n)])
+            instants = [end]
+            if start != end:
+                n = self._renderer.instants_needed(start, end)
+                instants = [_between(start, end, (i + 0.5) / n) for i in range(n)]
+            picture = self._renderer.picture(instants)
+            picture.setflags(write=False)  # else the message takes a copy
+            return picture
 
         return make
 

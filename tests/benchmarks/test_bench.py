@@ -82,9 +82,11 @@ def test_a_step_is_compared_with_plain_calls_its_parts_and_real_time(setup):
     rows = list(step(setup))
     for renderer in RENDERERS:
         of = [row for row in rows if row.what == f"env step, {renderer}"]
-        assert [row.group for row in of] == ["pybullet", "cost", "real_time"]
-        against_parts, in_time = of[1], of[2]
-        assert against_parts.ratio.median > 0.5  # the whole is not much less than its parts
+        assert [row.group for row in of] == ["pybullet", "cost", "cost", "real_time"]
+        against_parts, against_loop, in_time = of[1], of[2], of[3]
+        assert (
+            min(against_parts.ratio.median, against_loop.ratio.median) > 0.5
+        )  # not much less than its parts
         assert in_time.against_seconds == pytest.approx(setup.config.timing.step)
 
 
