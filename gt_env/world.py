@@ -194,7 +194,7 @@ class World:
             self.delivered.append(scan)
 
     def _track(self, t: float) -> None:
-        angle = self._tracker.command(t, self.pan.encoder)
+        angle = self._tracker.command(t, self.pan.encoder - self.pan.dither)
         if angle is None:
             return
         if self._tick == 0:  # at reset the pan settles on the first scan
@@ -206,6 +206,7 @@ class World:
         self._past.append(Instant(*pose, self.pan.direction))
         if due:
             self.delivered.append(self.camera.measure(t, self._rendering.shoot(self._past), self.pan.encoder))
+            self.pan.frame_taken()
 
     def target_middle(self) -> tuple[float, float, float]:
         """x, y, z of the target's true middle [m]."""

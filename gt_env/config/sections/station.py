@@ -126,6 +126,9 @@ class PanConfig:
         control_rate: How often the tracker runs [Hz].
         offset_deg: Added to the encoder's reading, gives the true direction of view [deg].
         encoder_counts: Counts of the encoder per turn; 0 for one without steps.
+        dither_deg: How far to either side it sweeps about the commanded angle [deg], a step after every frame;
+            0 for not at all. It breaks the error that whole pixels repeat as long as nothing moves.
+        dither_frames: Frames that one sweep takes, there and back.
     """
 
     tracker: Literal["thesis"] = "thesis"
@@ -136,3 +139,5 @@ class PanConfig:
     control_rate: Positive = 20.0
     offset_deg: Real = 0.0
     encoder_counts: Annotated[int, Field(strict=True, ge=0)] = 0
+    dither_deg: Annotated[float, Field(strict=True, ge=0, le=10)] = 0.0
+    dither_frames: Annotated[int, Field(strict=True, ge=2)] = 16
