@@ -29,6 +29,7 @@ from estimators.room import Room
 from estimators.thesis import ThesisEstimator
 
 if TYPE_CHECKING:
+    from estimators.pose_wrapper import PoseObservation
     from estimators.wrappers import GroundTruthWrapper, LocalizerWrapper
 
 __all__ = [
@@ -50,6 +51,7 @@ __all__ = [
     "MissingExtraError",
     "Pose2",
     "PoseEstimate",
+    "PoseObservation",
     "RecordingError",
     "Room",
     "TargetGeometry",
@@ -67,4 +69,8 @@ def __getattr__(name: str) -> Any:
         from estimators import wrappers
 
         return getattr(wrappers, name)
+    if name == "PoseObservation":
+        from estimators.pose_wrapper import PoseObservation
+
+        return PoseObservation
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -100,8 +100,18 @@ class GroundTruthWrapper(EstimateWrapper):
         self.name = name
         self.method = method
         base: Any = env.unwrapped
-        self.estimator = ground_truth_estimator(method, calibration or base.believed_calibration)
+        self._given = calibration
+        self._believed: Calibration = calibration or base.believed_calibration
+        self.estimator = ground_truth_estimator(method, self._believed)
         self.estimate = PoseEstimate.unknown()
+
+    def _start(self, info: dict[str, Any]) -> None:
+        base: Any = self.env.unwrapped
+        if self._given is None and base.believed_calibration is not self._believed:
+            # The station stands in another room now, and was told so.
+            self._believed = base.believed_calibration
+            self.estimator = ground_truth_estimator(self.method, self._believed)
+        self.estimator.reset()
 
 
 class LocalizerWrapper(EstimateWrapper):
@@ -147,7 +157,19 @@ class LocalizerWrapper(EstimateWrapper):
         self.estimator.reset()
 
 
-RESERVED_NAMES = frozenset({"true_pose", "t", "episode", "is_success", "final_info", "final_obs"})
+RESERVED_NAMES = frozenset(
+    {
+        "true_pose",
+        "t",
+        "episode",
+        "is_success",
+        "collision",
+        "reward_terms",
+        "task",
+        "final_info",
+        "final_obs",
+    }
+)
 
 
 def _refuse_taken_name(env: gym.Env[Any, Any], name: str) -> None:

@@ -15,7 +15,7 @@ from estimators.localizers.calibration import RobotCalibration
 from estimators.messages import Message, PoseEstimate
 from estimators.poses import Array, Pose2
 from estimators.room import Room
-from gt_env.config import ConfigLike, load_config
+from gt_env.config import ConfigLike, EnvConfig, load_config
 from gt_env.config.onboard import robot_calibration
 from gt_env.config.schema import pose_problem
 from gt_env.render.overview import Overview
@@ -86,19 +86,23 @@ class ArenaEnv(gym.Env[Observation, Array]):
         self.config = load_config(config)
         self.render_mode = render_mode
         self.metadata = {**self.metadata, "render_fps": max(1, round(1 / self.config.timing.step))}
-        believed = self.config.believed()
-        self.believed_calibration: Calibration = believed.calibration()
-        self.believed_robot: RobotCalibration = robot_calibration(believed)
-        self.believed_map: Room = believed.room.in_station_frame(believed.onboard.lidar.height)
-        self._room = self.config.room.in_station_frame()
         self._ticks = self.config.ticks(self.config.timing.step)
-        self._world = World(self.config)
+        self._build(self.config)
         actions: Any = spaces.Box(-1.0, 1.0, (self._world.robot.wheels,), np.float32)
         observations: Any = spaces.Dict(self._world.spaces())
         self.action_space = actions
         self.observation_space = observations
         self._estimates: dict[str, PoseEstimate] = {}
         self._overview: Overview | None = None
+
+    def _build(self, config: EnvConfig) -> None:
+        """Make the world, and what estimators are told of it."""
+        believed = config.believed()
+        self.believed_calibration: Calibration = believed.calibration()
+        self.believed_robot: RobotCalibration = robot_calibration(believed)
+        self.believed_map: Room = believed.room.in_station_frame(believed.onboard.lidar.height)
+        self._room = config.room.in_station_frame()
+        self._world = World(config)
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None

@@ -24,20 +24,23 @@ def presets() -> tuple[str, ...]:
     return tuple(sorted(p.name.removesuffix(".toml") for p in found if p.name.endswith(".toml")))
 
 
-def load_config(config: ConfigLike = None, overrides: Mapping[str, Any] | None = None) -> EnvConfig:
+def load_config(
+    config: ConfigLike = None, overrides: Mapping[str, Any] | None = None, default: str = DEFAULT_PRESET
+) -> EnvConfig:
     """Make a configuration.
 
     Args:
         config: An `EnvConfig`, a mapping, a preset's name, or the path of a TOML file. Mapping and file may
             be partial: they are laid over the preset that their key `preset` names (a list of names lays
-            several over one another), or over `thesis`.
+            several over one another), or over `default`.
         overrides: Values to lay over that, e.g. `{"lrf.rate": 20}`.
+        default: Preset that counts where none is named.
 
     Raises:
         ConfigError: If there is no such preset or file, a key is unknown, or a value is of the wrong type or
             out of range; the message names file, key, value and what is allowed.
     """
-    values, origin = _values(config)
+    values, origin = _values(config, default)
     for key, value in (overrides or {}).items():
         values = merge(values, nested(key, value))
     if isinstance(config, EnvConfig) and not overrides:
@@ -60,14 +63,14 @@ def parse_override(text: str) -> tuple[str, Any]:
         return key.strip(), value.strip()
 
 
-def _values(config: ConfigLike) -> tuple[dict[str, Any], str]:
+def _values(config: ConfigLike, default: str) -> tuple[dict[str, Any], str]:
     """All values, presets resolved, and where they came from."""
     if config is None:
-        return _preset(DEFAULT_PRESET), DEFAULT_PRESET
+        return _preset(default), default
     if isinstance(config, EnvConfig):
         return config.as_dict(), "config"
     if isinstance(config, Mapping):
-        return _over_preset(config, "config"), "config"
+        return _over_preset(config, "config", default), "config"
     if isinstance(config, str) and config in presets():
         return _preset(config), config
     if not isinstance(config, str | Path):
@@ -78,7 +81,7 @@ def _values(config: ConfigLike) -> tuple[dict[str, Any], str]:
             f"config = {str(config)!r}: must be a TOML file that exists or one of the presets "
             f"{', '.join(presets())}"
         )
-    return _over_preset(_read_toml(path.read_bytes(), str(path)), str(path)), str(path)
+    return _over_preset(_read_toml(path.read_bytes(), str(path)), str(path), default), str(path)
 
 
 def _preset(name: str) -> dict[str, Any]:
@@ -88,11 +91,11 @@ def _preset(name: str) -> dict[str, Any]:
     return _over_preset(_read_toml(content, f"{name}.toml"), f"{name}.toml")
 
 
-def _over_preset(values: Mapping[str, Any], origin: str) -> dict[str, Any]:
+def _over_preset(values: Mapping[str, Any], origin: str, default: str = DEFAULT_PRESET) -> dict[str, Any]:
     values = dict(values)
     names = values.pop("preset", None)
     if names is None:
-        names = [] if origin == f"{DEFAULT_PRESET}.toml" else [DEFAULT_PRESET]
+        names = [] if origin == f"{DEFAULT_PRESET}.toml" else [default]
     elif isinstance(names, str):
         names = [names]
     if not isinstance(names, Sequence) or not all(isinstance(n, str) for n in names):

@@ -26,6 +26,7 @@ from gt_env.config.sections import (
     RobotConfig,
     RoomConfig,
     TargetConfig,
+    TaskConfig,
     TimingConfig,
     section,
 )
@@ -52,6 +53,7 @@ class EnvConfig:
     physics: PhysicsConfig = field(default_factory=PhysicsConfig)
     timing: TimingConfig = field(default_factory=TimingConfig)
     onboard: OnboardConfig = field(default_factory=OnboardConfig)
+    task: TaskConfig = field(default_factory=TaskConfig)
     belief: dict[str, Any] = field(default_factory=dict)
 
     @model_validator(mode="after")
@@ -146,6 +148,11 @@ def _camera_problems(c: EnvConfig) -> Iterator[str]:
             yield (
                 f"room.obstacles.{i} ({obstacle.shape}): camera.renderer = 'fast' draws no obstacles: use "
                 f"camera.renderer = 'tiny'"
+            )
+        if c.task.randomize.obstacles and camera.enabled:
+            yield (
+                f"task.randomize.obstacles = {c.task.randomize.obstacles}: camera.renderer = 'fast' draws no "
+                f"obstacles: use camera.renderer = 'tiny', or camera.enabled = false"
             )
         return
     for key, value, plain in (

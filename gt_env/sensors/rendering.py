@@ -97,7 +97,8 @@ class FastRendering:
 
 def make_rendering(config: EnvConfig, engine: Engine) -> Rendering:
     """The renderer that the configuration asks for."""
-    return FastRendering(config) if config.camera.renderer == "fast" else TinyRendering(engine, config)
+    fast = config.camera.enabled and config.camera.renderer == "fast"
+    return FastRendering(config) if fast else TinyRendering(engine, config)
 
 
 def camera_view(config: EnvConfig, direction: float) -> View:

@@ -6,6 +6,7 @@ from gt_env.config.sections.robot import RobotConfig, TargetConfig
 from gt_env.config.sections.room import BoxObstacle, CylinderObstacle, RoomConfig, UrdfObstacle
 from gt_env.config.sections.simulation import LampConfig, LightConfig, PhysicsConfig, TimingConfig
 from gt_env.config.sections.station import CameraConfig, LrfConfig, PanConfig
+from gt_env.config.sections.task import RandomizationConfig, RewardConfig, TaskConfig
 
 __all__ = [
     "BoxObstacle",
@@ -21,9 +22,12 @@ __all__ = [
     "OnboardConfig",
     "PanConfig",
     "PhysicsConfig",
+    "RandomizationConfig",
+    "RewardConfig",
     "RobotConfig",
     "RoomConfig",
     "TargetConfig",
+    "TaskConfig",
     "TimingConfig",
     "UrdfObstacle",
     "section",

@@ -1,0 +1,201 @@
+"""The registered environments with a task. Each docstring is the environment's specification."""
+
+from __future__ import annotations
+
+from gt_env.tasks.env import TaskEnv
+from gt_env.tasks.follow_path import FollowPath
+from gt_env.tasks.patrol import Patrol
+from gt_env.tasks.reach import Reach
+
+
+class ReachEnv(TaskEnv):
+    """Drive to a goal in the room and touch nothing on the way.
+
+    ## Action space
+    As `gt_env/Arena-v0`: `Box(-1, 1, (n,), float32)`, wheel speeds over the robot's maximum, held for one step
+    of 0.1 s.
+
+    ## Observation space
+    That of `gt_env/Arena-v0` (without `image` by default), and
+
+    | key | shape | unit | what |
+    |---|---|---|---|
+    | `goal` | (2,) float32 | m | x, y of the goal in the station's frame |
+
+    The observation holds no pose: `estimators.PoseObservation` puts in its place what the station measures.
+
+    ## Reward
+    The sum of `info["reward_terms"]`; the weights are `task.reward`.
+
+    | term | value | default weight |
+    |---|---|---|
+    | `progress` | metres that the goal came nearer | 5 |
+    | `time` | minus the step's duration [s] | 0.2 |
+    | `smoothness` | minus the squared change of the action | 0.005 |
+    | `success` | 1 in the step that reaches the goal | 10 |
+    | `failure` | minus 1 in a step that touches a wall or an obstacle | 10 |
+
+    ## Info
+    That of `gt_env/Arena-v0`, and
+
+    | key | what |
+    |---|---|
+    | `is_success` | whether the goal is reached |
+    | `collision` | whether the robot touches something |
+    | `reward_terms` | the terms above |
+    | `task` | `distance`: of the robot's base to the goal [m] |
+
+    ## Start
+    Goal and start pose uniform over the room, `task.margin` (0.40 m) off walls and obstacles,
+    `task.station_margin` (0.60 m) off the LRF and at least `task.min_distance` (0.50 m) apart; any yaw.
+    `reset(options={"pose": (x, y, yaw), "goal": (x, y)})` sets them. With `task.randomize` the room, its
+    obstacles, noise, light and friction are drawn before.
+
+    ## End
+    Terminated when the true position of the base is within `task.goal_radius` (0.10 m) of the goal, and on
+    contact. Truncated after `task.time_limit` (25 s).
+
+    ## Arguments
+    `config`: as `gt_env/Arena-v0`; the preset where none is named is `tasks`. `render_mode`: the same.
+
+    ## Version history
+    v0: first version.
+    """
+
+    task_type = Reach
+
+
+class FollowPathEnv(TaskEnv):
+    """Drive along a path to its end, fast and not beside it.
+
+    ## Action space
+    As `gt_env/Arena-v0`: `Box(-1, 1, (n,), float32)`, wheel speeds over the robot's maximum, held for one step
+    of 0.1 s.
+
+    ## Observation space
+    That of `gt_env/Arena-v0` (without `image` by default), and
+
+    | key | shape | unit | what |
+    |---|---|---|---|
+    | `goal` | (200,) float32 | m | the path: 100 points x, y, equally far apart, from its start to its end |
+
+    ## Reward
+    The sum of `info["reward_terms"]`; the weights are `task.reward`.
+
+    | term | value | default weight |
+    |---|---|---|
+    | `progress` | metres along the path, negative backwards | 5 |
+    | `cross_track` | minus the distance beside the path [m] times the step's duration [s] | 30 |
+    | `time` | minus the step's duration [s] | 0.2 |
+    | `smoothness` | minus the squared change of the action | 0.005 |
+    | `success` | 1 in the step that reaches the end | 10 |
+    | `failure` | minus 1 in a step that leaves the corridor, or touches a wall or an obstacle | 10 |
+
+    ## Info
+    That of `gt_env/Arena-v0`, and
+
+    | key | what |
+    |---|---|
+    | `is_success` | whether the end is reached |
+    | `collision` | whether the robot touches something |
+    | `reward_terms` | the terms above |
+    | `task` | `cross_track` [m], positive to the left; `station`, the way along the path [m]; `progress`, 0 to 1 |
+
+    ## Start
+    A figure of eight, an ellipse or a wave of random size and place, with bends of at least 0.25 m,
+    `task.margin` off walls and obstacles and `task.station_margin` off the LRF; or `task.path`. The robot
+    starts at most 0.05 m beside the path's start, at most 20 deg turned away from it, or at
+    `reset(options={"pose": (x, y, yaw)})`.
+
+    ## End
+    Terminated at the end of the path (`task.goal_radius` along it, 0.10 m), on contact, and when the base is
+    more than `task.corridor` (0.30 m) beside the path. Truncated after `task.time_limit` (60 s).
+
+    ## Arguments
+    `config`: as `gt_env/Arena-v0`; the preset where none is named is `tasks`. `render_mode`: the same.
+
+    ## Version history
+    v0: first version.
+    """
+
+    task_type = FollowPath
+
+
+class PatrolEnv(TaskEnv):
+    """Visit way-points in order, again and again, and touch nothing.
+
+    ## Action space
+    As `gt_env/Arena-v0`: `Box(-1, 1, (n,), float32)`, wheel speeds over the robot's maximum, held for one step
+    of 0.1 s.
+
+    ## Observation space
+    That of `gt_env/Arena-v0` (without `image` by default), and
+
+    | key | shape | unit | what |
+    |---|---|---|---|
+    | `goal` | (4,) float32 | m | x, y of the present way-point and of the next |
+
+    Which one is present is decided by the true position, as by a bell that rings at the way-point.
+
+    ## Reward
+    The sum of `info["reward_terms"]`; the weights are `task.reward`.
+
+    | term | value | default weight |
+    |---|---|---|
+    | `progress` | metres that the present way-point came nearer | 5 |
+    | `time` | minus the step's duration [s] | 0.2 |
+    | `smoothness` | minus the squared change of the action | 0.005 |
+    | `success` | 1 in a step that reaches a way-point | 10 |
+    | `failure` | minus 1 in a step that touches a wall or an obstacle | 10 |
+
+    ## Info
+    That of `gt_env/Arena-v0`, and
+
+    | key | what |
+    |---|---|
+    | `is_success` | whether at least one lap is complete, and nothing was touched |
+    | `collision` | whether the robot touches something |
+    | `reward_terms` | the terms above |
+    | `task` | `distance` to the present way-point [m], `visited` way-points, `laps` |
+
+    ## Start
+    A start pose as in `gt_env/Reach-v0` and `task.waypoint_count` (4) way-points drawn like its goal, each at
+    least `task.min_distance` from the one before; or `task.waypoints`.
+
+    ## End
+    Endless: terminated on contact only, truncated after `task.time_limit` (60 s).
+
+    ## Arguments
+    `config`: as `gt_env/Arena-v0`; the preset where none is named is `tasks`. `render_mode`: the same.
+
+    ## Version history
+    v0: first version.
+    """
+
+    task_type = Patrol
+
+
+class ReachScanEnv(TaskEnv):
+    """Reach, from nothing but the station's scans: the hard tier.
+
+    The scan shows where the target is and not where it heads; that shows only in how it moves.
+
+    ## Action space
+    As `gt_env/Arena-v0`: `Box(-1, 1, (n,), float32)`, wheel speeds over the robot's maximum, held for one step
+    of 0.1 s.
+
+    ## Observation space
+    | key | shape | unit | what |
+    |---|---|---|---|
+    | `scan` | (beams,) float32 | m | the LRF's ranges; no return reads `lrf.range_max` |
+    | `goal` | (2,) float32 | m | x, y of the goal in the station's frame |
+
+    ## Reward, info, start, end, arguments
+    As `gt_env/Reach-v0`.
+
+    ## Version history
+    v0: first version.
+    """
+
+    task_type = Reach
+    observed = ("scan",)
