@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 import tempfile
@@ -38,6 +39,7 @@ class View:
         height: [px].
         near: [m].
         far: [m].
+        roll: Turn of the camera about its axis [rad]; positive turns the picture clockwise.
     """
 
     eye: tuple[float, float, float]
@@ -47,6 +49,14 @@ class View:
     height: int
     near: float = 0.05
     far: float = 40.0
+    roll: float = 0.0
+
+    @property
+    def up(self) -> tuple[float, float, float]:
+        """The direction x, y, z that the picture shows as up, beside what it is along the axis."""
+        dx, dy = self.look_at[0] - self.eye[0], self.look_at[1] - self.eye[1]
+        c, s = math.cos(self.roll), math.sin(self.roll) / math.hypot(dx, dy) if self.roll else 0.0
+        return -s * dy, s * dx, c
 
 
 class Engine:
@@ -244,7 +254,7 @@ class Engine:
         _, _, rgba, depth, _ = p.getCameraImage(
             view.width,
             view.height,
-            p.computeViewMatrix(view.eye, view.look_at, (0, 0, 1)),
+            p.computeViewMatrix(view.eye, view.look_at, view.up),
             p.computeProjectionMatrixFOV(view.fov_deg, view.width / view.height, view.near, view.far),
             renderer=p.ER_TINY_RENDERER,
             flags=p.ER_NO_SEGMENTATION_MASK,

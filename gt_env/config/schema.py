@@ -144,6 +144,12 @@ def _camera_problems(c: EnvConfig) -> Iterator[str]:
             f"{1 / camera.rate:g} s"
         )
     if camera.renderer == "fast":
+        if camera.roll_deg and camera.enabled:
+            # Its columns are upright planes; a rolled pixel lies across several of them.
+            yield (
+                f"camera.roll_deg = {camera.roll_deg}: camera.renderer = 'fast' draws an upright camera: use "
+                f"camera.renderer = 'tiny'"
+            )
         for i, obstacle in enumerate(c.room.obstacles if camera.enabled else ()):
             yield (
                 f"room.obstacles.{i} ({obstacle.shape}): camera.renderer = 'fast' draws no obstacles: use "

@@ -9,6 +9,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from estimators.calibration import DEG
 from estimators.poses import Pose2
 from gt_env.config import EnvConfig
 from gt_env.engine import Engine, View
@@ -113,6 +114,7 @@ def camera_view(config: EnvConfig, direction: float) -> View:
         height=c.height,
         near=c.near,
         far=c.far,
+        roll=c.roll_deg * DEG,
     )
 
 

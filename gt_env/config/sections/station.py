@@ -74,6 +74,8 @@ class CameraConfig:
         height: [px].
         rate: Frames per second [Hz].
         position: x, y, z [m]; the thesis puts the camera in front of the LRF, half-way up the target.
+        roll_deg: Turn of the camera about its axis of view [deg]; positive turns the picture clockwise. Needs
+            `tiny`.
         near: Nothing nearer is drawn [m].
         far: Nothing farther is drawn [m].
         noise_levels: Standard deviation of pixel noise [grey levels].
@@ -89,6 +91,7 @@ class CameraConfig:
     height: Annotated[int, Field(strict=True, ge=8, le=4096)] = 240
     rate: Positive = 30.0
     position: tuple[Real, Real, Positive] = (0.0, 0.10, 0.165)
+    roll_deg: Annotated[float, Field(strict=True, ge=-180, le=180)] = 0.0
     near: Positive = 0.05
     far: Positive = 40.0
     noise_levels: NotNegative = 0.0
@@ -103,6 +106,7 @@ class CameraConfig:
             fov=self.fov_deg * DEG,
             width=self.width,
             height=self.height,
+            roll=self.roll_deg * DEG,
             center_px=self._center_px(),
         )
 
