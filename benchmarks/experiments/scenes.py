@@ -12,7 +12,7 @@ from benchmarks.driving import into_room
 from benchmarks.published import TEST_POINTS
 from benchmarks.rollout import watched_arena
 from estimators.calibration import DEG, Calibration
-from estimators.messages import ImageFrame, LaserScan
+from estimators.messages import STATION_LRF, ImageFrame, LaserScan
 from estimators.poses import Pose2
 from gt_env.config import EnvConfig
 from gt_env.config.schema import pose_problem
@@ -77,7 +77,7 @@ def scene_at(env: gym.Env[Any, Any], pose: Pose2, seed: int) -> Scene:
     base: Any = env.unwrapped
     scan = frame = None
     for message in base.measurements:
-        if isinstance(message, LaserScan):
+        if isinstance(message, LaserScan) and message.source == STATION_LRF:
             scan = message
         elif isinstance(message, ImageFrame):
             frame = message

@@ -18,7 +18,15 @@ import numpy as np
 
 from benchmarks.recording.frames import StoredFrame, encode_png
 from estimators.errors import RecordingError
-from estimators.messages import ImageFrame, ImuSample, LaserScan, Message, TargetSighting, WheelOdometry
+from estimators.messages import (
+    STATION_LRF,
+    ImageFrame,
+    ImuSample,
+    LaserScan,
+    Message,
+    TargetSighting,
+    WheelOdometry,
+)
 from estimators.poses import Pose2
 
 SCHEMA_VERSION: Final = "1"
@@ -89,7 +97,7 @@ def _to_fields(message: Message | StoredFrame) -> tuple[str, Fields]:
     match message:
         case LaserScan():
             return SCAN, {
-                "frame_id": STATION_FRAME,
+                "frame_id": STATION_FRAME if message.source == STATION_LRF else message.source,
                 "pose": _pose(Pose2()),
                 "start_angle": float(message.bearing_min),
                 "end_angle": float(message.bearings[-1]),

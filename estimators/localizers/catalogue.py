@@ -7,8 +7,11 @@ from typing import TYPE_CHECKING, Final
 
 from estimators.errors import ConfigError
 from estimators.localizers.calibration import RobotCalibration
+from estimators.localizers.ekf import EkfLocalizer
 from estimators.localizers.gyro_odometry import GyroOdometryLocalizer
+from estimators.localizers.mcl import MonteCarloLocalizer
 from estimators.localizers.odometry import OdometryLocalizer
+from estimators.localizers.scan_matching import ScanMatchingLocalizer
 from estimators.poses import Pose2
 from estimators.room import Room
 
@@ -28,6 +31,11 @@ LOCALIZERS: Final[dict[str, Maker]] = {
     "odometry": lambda robot, room, start, seed: OdometryLocalizer(robot, _started("odometry", start)),
     "gyro_odometry": lambda robot, room, start, seed: GyroOdometryLocalizer(
         robot, _started("gyro_odometry", start)
+    ),
+    "ekf": lambda robot, room, start, seed: EkfLocalizer(robot, room, _started("ekf", start)),
+    "mcl": lambda robot, room, start, seed: MonteCarloLocalizer(robot, room, start, seed=seed),
+    "scan_matching": lambda robot, room, start, seed: ScanMatchingLocalizer(
+        robot, _started("scan_matching", start)
     ),
 }
 """From what the robot believes of itself, the map, the start pose and a seed."""

@@ -8,7 +8,14 @@ from typing import Final
 import numpy as np
 
 from estimators.localizers.calibration import START_SIGMAS, RobotCalibration
-from estimators.localizers.wheels import WheelModel, WheelReader, WheelStep, arc_jacobians, drive_arc
+from estimators.localizers.wheels import (
+    PARAMETERS,
+    WheelModel,
+    WheelReader,
+    WheelStep,
+    arc_jacobians,
+    drive_arc,
+)
 from estimators.messages import ImuSample, Message, PoseEstimate, WheelOdometry
 from estimators.poses import Array, Pose2
 
@@ -134,7 +141,7 @@ class GyroOdometryLocalizer:
         by_states = np.zeros((2, 7))
         by_states[0, LEFT:] = 0.5 * step.left, 0.5 * step.right
         noise = self._model.slip_covariance(step)
-        wheels = self._model.by_parameters(step)[1]
+        wheels = self._model.by_parameters(step, np.zeros(PARAMETERS))[1]
         noise[1, 1] += wheels**2 @ self._model.parameter_variances
         self._advance(way, turn, by_states, noise)
 

@@ -130,22 +130,42 @@ class WheelModel:
         self.by_wheels = np.array([[0.5, 0.5], [-1 / robot.track, 1 / robot.track]])
         """Derivatives of way and turn with respect to the ways of left and right wheel (2, 2)."""
 
-    def arc(self, step: WheelStep) -> tuple[float, float]:
-        """Way [m] and turn [rad] of the robot."""
-        return 0.5 * (step.left + step.right), (step.right - step.left) / self._track
+    def arc(self, step: WheelStep, errors: Array | None = None) -> tuple[float, float]:
+        """Way [m] and turn [rad] of the robot.
 
-    def by_parameters(self, step: WheelStep) -> Array:
-        """Derivatives of way and turn with respect to the relative errors of radii and track (2, 3)."""
-        _, turn = self.arc(step)
-        b = self._track
+        Args:
+            step: What the wheels did.
+            errors: What is known of the relative errors of left radius, right radius and track (3,): what is,
+                over what is believed, minus one.
+        """
+        of_left, of_right, of_track = (0.0, 0.0, 0.0) if errors is None else errors.tolist()
+        left, right = step.left * (1.0 + of_left), step.right * (1.0 + of_right)
+        return 0.5 * (left + right), (right - left) / (self._track * (1.0 + of_track))
+
+    def by_parameters(self, step: WheelStep, errors: Array) -> Array:
+        """Derivatives of way and turn with respect to these errors (2, 3)."""
+        _, turn = self.arc(step, errors)
+        track = self._track * (1.0 + errors[2])
         return np.array(
-            [[0.5 * step.left, 0.5 * step.right, 0.0], [-step.left / b, step.right / b, -turn]], float
+            [
+                [0.5 * step.left, 0.5 * step.right, 0.0],
+                [-step.left / track, step.right / track, -turn / (1.0 + errors[2])],
+            ]
         )
 
     def slip_covariance(self, step: WheelStep) -> Array:
         """Of way and turn, from slip (2, 2)."""
         variances = self._slip * np.abs([step.left, step.right])
         return np.asarray(self.by_wheels * variances @ self.by_wheels.T, float)
+
+    def step_sigmas(self, step: WheelStep) -> Array:
+        """Standard deviations (2,) of the ways of left and right wheel within one step [m], all errors included.
+
+        For those that cannot keep the lasting errors apart and have them drawn anew at every step.
+        """
+        ways = np.abs([step.left, step.right])
+        variances = self._slip * ways + self.parameter_variances[:2] * ways**2 + self.pulse**2 / 6
+        return np.asarray(np.sqrt(variances), float)
 
     def counting_covariance(self) -> Array:
         """Of way and turn since the start, because a wheel stands anywhere within a pulse (2, 2)."""

@@ -1,0 +1,108 @@
+"""Odometry from matching scans, without a map."""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+
+from estimators.localizers.beams import end_points
+from estimators.localizers.calibration import START_SIGMAS, RobotCalibration
+from estimators.localizers.dead_reckoning import DeadReckoning
+from estimators.localizers.icp import ReferenceScan, align
+from estimators.localizers.sequence import SeenScan, StepsAndScans
+from estimators.localizers.wheels import WheelStep
+from estimators.messages import Message, PoseEstimate
+from estimators.poses import Array, Pose2, wrap_angle
+
+FAR: Final = 0.5
+"""After this way from the keyframe the next scan becomes one [m]."""
+TURNED: Final = math.radians(30)
+"""And after this turn [rad]."""
+SHARE: Final = 0.5
+"""And where fewer than this share of the points find a line in it."""
+
+
+class ScanMatchingLocalizer:
+    """Where each scan was taken relative to a keyframe, found by `align` from where the wheels say it is.
+
+    Within a keyframe this is a filter: wheels predict, scans correct. What the noise of the keyframe's own scan
+    shifts is not seen there; it is added when the pose is given in the room, and stays when the next keyframe
+    is taken. It is counted as independent from one keyframe to the next. In a room that is seen as a whole from
+    everywhere such shifts partly cancel, so there the covariance is too large.
+
+    Args:
+        robot: What the robot believes of itself.
+        start: Where it starts.
+    """
+
+    def __init__(self, robot: RobotCalibration, start: Pose2) -> None:
+        self._noise_sigma = robot.lidar.noise_sigma
+        self._filter = DeadReckoning(robot)
+        self._sequence = StepsAndScans(robot)
+        self._start = start
+        self.reset()
+
+    def reset(self) -> None:
+        """Stand at the start again."""
+        self._sequence.reset()
+        self._key, self._key_covariance = self._start, np.diag(np.square(START_SIGMAS))
+        self._reference: ReferenceScan | None = None
+        self._reference_covariance: Array = np.zeros((3, 3))
+        self._filter.start(Pose2(), START_SIGMAS)
+
+    def update(self, message: Message) -> PoseEstimate | None:
+        """Take a reading of the wheels or a scan of the lidar."""
+        events = self._sequence.take(message)
+        for event in events:
+            if isinstance(event, WheelStep):
+                self._filter.drive(event)
+            else:
+                self._look(event)
+        stamp = self._sequence.now
+        return None if stamp is None or not events else self._estimate(stamp)
+
+    def _look(self, seen: SeenScan) -> None:
+        points = end_points(seen.scan, seen.mount)
+        if self._reference is None:
+            self._reference = ReferenceScan.of(points, self._noise_sigma)
+            return
+        x, P = self._filter.x, self._filter.P
+        found = align(self._reference, points, x[:3], P[:3, :3], self._noise_sigma)
+        if found is not None:
+            H = np.zeros((3, len(x)))
+            H[:, :3] = np.eye(3)
+            Q = np.linalg.inv(np.linalg.inv(P) + H.T @ found.information @ H)
+            # `align` has already weighed prior and pairs for the pose; what else is in the state follows it.
+            x = x + P[:, :3] @ np.linalg.solve(P[:3, :3], found.pose - x[:3])
+            self._filter.x, self._filter.P = x, 0.5 * (Q + Q.T)
+            weak = found.information + 1e-6 * np.eye(3)  # regular in a corridor too
+            self._reference_covariance = np.asarray(np.linalg.inv(weak), float)
+        far = math.hypot(x[0], x[1]) > FAR or abs(wrap_angle(float(x[2]))) > TURNED
+        if far or found is None or found.share < SHARE:
+            self._take_keyframe(points)
+
+    def _take_keyframe(self, points: Array) -> None:
+        """Go on from here: what is known of the wheels stays, what they have to do with the pose does not."""
+        self._key, self._key_covariance = self._in_room()
+        self._reference = ReferenceScan.of(points, self._noise_sigma)
+        self._filter.x[:3] = 0.0
+        self._filter.P[:3] = self._filter.P[:, :3] = 0.0
+        self._filter.P[:3, :3] = np.diag(np.square(START_SIGMAS))
+        self._reference_covariance = np.zeros((3, 3))
+
+    def _in_room(self) -> tuple[Pose2, Array]:
+        """Pose and covariance of the robot in the room."""
+        relative = self._filter.estimate(0.0)
+        c, s = math.cos(self._key.yaw), math.sin(self._key.yaw)
+        turned = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+        x, y, _ = turned @ relative.pose.as_array()
+        by_key = np.array([[1.0, 0.0, -y], [0.0, 1.0, x], [0.0, 0.0, 1.0]])
+        within = relative.covariance + self._reference_covariance
+        P = by_key @ self._key_covariance @ by_key.T + turned @ within @ turned.T
+        return self._key @ relative.pose, 0.5 * (P + P.T)
+
+    def _estimate(self, stamp: float) -> PoseEstimate:
+        pose, covariance = self._in_room()
+        return PoseEstimate(stamp=stamp, pose=pose, covariance=covariance)
