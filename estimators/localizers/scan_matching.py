@@ -23,6 +23,9 @@ TURNED: Final = math.radians(30)
 SHARE: Final = 0.5
 """And where fewer than this share of the points find a line in it."""
 
+WHEELS_ALONE: Final = (0.02, 0.02, 0.05)
+"""What the wheels leave open within a keyframe where scans say nothing, as along a corridor [m, m, rad]."""
+
 
 class ScanMatchingLocalizer:
     """Where each scan was taken relative to a keyframe, found by `align` from where the wheels say it is.
@@ -77,8 +80,8 @@ class ScanMatchingLocalizer:
             # `align` has already weighed prior and pairs for the pose; what else is in the state follows it.
             x = x + P[:, :3] @ np.linalg.solve(P[:3, :3], found.pose - x[:3])
             self._filter.x, self._filter.P = x, 0.5 * (Q + Q.T)
-            weak = found.information + 1e-6 * np.eye(3)  # regular in a corridor too
-            self._reference_covariance = np.asarray(np.linalg.inv(weak), float)
+            by_wheels = np.diag(1.0 / np.square(WHEELS_ALONE))
+            self._reference_covariance = np.asarray(np.linalg.inv(found.information + by_wheels), float)
         far = math.hypot(x[0], x[1]) > FAR or abs(wrap_angle(float(x[2]))) > TURNED
         if far or found is None or found.share < SHARE:
             self._take_keyframe(points)
