@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from estimators.poses import Array, Pose2
 from gt_env.body import State
 from gt_env.config import EnvConfig
 from gt_env.engine import Engine
 from gt_env.robot_model import WHEEL_JOINTS, differential_robot
+from gt_env.slip import Slip
 
 INTEGRAL_GAIN = 0.3
 """Share of a wheel's lag that the motors' controller makes up for within one tick."""
@@ -27,13 +30,17 @@ class DifferentialRobot:
         self._config = config.robot
         self._tick = config.timing.tick
         self._urdf = differential_robot(config.robot, config.target)
+        slips = config.robot.slip or config.robot.slip_sigma
+        self._slip = Slip(config.robot, self.wheels) if slips else None
 
-    def spawn(self, engine: Engine, pose: Pose2, floor: int) -> None:
-        """Put the robot into the world, at rest."""
+    def spawn(self, engine: Engine, pose: Pose2, floor: int, rng: np.random.Generator) -> None:
+        """Put the robot into the world, at rest; what is random about it comes from a generator of its own."""
         self._body = engine.add_robot(self._urdf, pose.x, pose.y, pose.yaw, floor, WHEEL_JOINTS)
         self._goal = [0.0] * self.wheels
         self._speeds = [0.0] * self.wheels
         self._angles = self._body.wheel_angles()
+        if self._slip is not None:
+            self._slip.reset(rng, self._angles)
         self._command()
         self._body.may_sleep(True)
 
@@ -51,11 +58,14 @@ class DifferentialRobot:
             return
         # Plain numbers: for two wheels, every tick, arrays would take as long as the engine itself.
         most = self._config.max_wheel_acceleration * self._tick
+        slip = self._slip
+        if slip is not None:
+            slip.motors(self._body.wheel_angles())
         for i, goal in enumerate(self._goal):
             speed = self._speeds[i]
             if speed != goal:
                 speed = self._speeds[i] = speed + min(max(goal - speed, -most), most)
-            self._angles[i] += speed * self._tick
+            self._angles[i] += speed * self._tick if slip is None else speed * self._tick * slip.grips[i]
         self._command()
         if self._at_rest:
             self._body.may_sleep(True)
@@ -71,7 +81,10 @@ class DifferentialRobot:
         return not any(self._goal) and not any(self._speeds)
 
     def _command(self) -> None:
-        self._body.command_wheels(self._angles, self._speeds, INTEGRAL_GAIN, self._config.stall_torque)
+        speeds = self._speeds
+        if self._slip is not None:
+            speeds = [speed * grip for speed, grip in zip(speeds, self._slip.grips, strict=True)]
+        self._body.command_wheels(self._angles, speeds, INTEGRAL_GAIN, self._config.stall_torque)
 
     def pose(self) -> tuple[float, float, float]:
         """True x, y [m], yaw [rad] of the base."""
@@ -86,8 +99,9 @@ class DifferentialRobot:
         return self._body.pose_of(state)
 
     def wheel_angles(self) -> list[float]:
-        """True angles of the wheels [rad], left and right."""
-        return self._body.wheel_angles()
+        """Angles that the wheels' motors have turned through [rad], left and right, as encoders see them."""
+        joints = self._body.wheel_angles()
+        return joints if self._slip is None else self._slip.motors(joints)
 
     def touches(self, bodies: list[int]) -> bool:
         """Whether it is in contact with one of these bodies."""

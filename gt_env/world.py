@@ -102,10 +102,12 @@ class World:
         """Build everything anew with the robot at rest at a pose; every sensor measures once."""
         # One generator per sensor in fixed order, so that switching one off leaves the others' noise.
         for_lrf, for_camera = rng.spawn(2)
-        (for_onboard,) = for_camera.spawn(1)  # one more of `rng` itself would change its later episodes
+        for_onboard, for_robot = for_camera.spawn(
+            2
+        )  # one more of `rng` itself would change its later episodes
         self.engine.reset()
         floor, self.walls = build_scene(self.engine, self.config, self.room)
-        self.robot.spawn(self.engine, pose, floor)
+        self.robot.spawn(self.engine, pose, floor, for_robot)
         self.engine.settle()
         self.lrf.reset(for_lrf)
         self.camera.reset(for_camera)

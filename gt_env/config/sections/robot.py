@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import field
+from typing import Annotated
+
+from pydantic import Field
 
 from estimators.calibration import DEG, TargetGeometry
 from estimators.poses import Pose2
@@ -22,6 +25,9 @@ class RobotConfig:
         max_wheel_speed: No-load speed of the motors [rad/s]; an action of 1.
         max_wheel_acceleration: How fast the motors' controller changes the speed [rad/s^2].
         stall_torque: [N m].
+        slip: Fraction by which each wheel's way over the floor falls short of what its encoder counts.
+        slip_sigma: Standard deviation of what each wheel adds to that, drawn anew after every `slip_length`.
+        slip_length: [m].
         pulses_per_turn: Of the wheels' encoders.
         encoder_rate: [Hz].
         length: Of the body, along x [m].
@@ -40,6 +46,9 @@ class RobotConfig:
     max_wheel_speed: Positive = 29.4
     max_wheel_acceleration: Positive = 60.0
     stall_torque: Positive = 1.08
+    slip: Annotated[float, Field(strict=True, ge=0, le=0.9)] = 0.0
+    slip_sigma: Annotated[float, Field(strict=True, ge=0, le=0.3)] = 0.0
+    slip_length: Positive = 0.1
     pulses_per_turn: Whole = 360
     encoder_rate: Positive = 20.0
     length: Positive = 0.19
