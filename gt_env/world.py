@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from estimators.messages import Message
 from estimators.poses import Pose2
-from estimators.thesis import ThesisTracker
 from gt_env.body import State
 from gt_env.config import EnvConfig
 from gt_env.engine import Engine
@@ -24,6 +23,7 @@ from gt_env.sensors.onboard import OnboardSensors
 from gt_env.sensors.pan_unit import PanUnit
 from gt_env.sensors.ranging import make_ranging
 from gt_env.sensors.rendering import Instant, make_rendering, target_middle
+from gt_env.sensors.tracking import make_tracker
 
 
 class World:
@@ -52,7 +52,7 @@ class World:
         self.pan = PanUnit(config.pan, config.timing.tick)
         self.encoders = WheelEncoders(config.robot, self.robot.wheels)
         self.onboard = OnboardSensors(config, believed)
-        self._tracker = ThesisTracker(believed.calibration(), math.radians(config.pan.dead_zone_deg))
+        self._tracker = make_tracker(config)
         self._every = {
             "lrf": config.ticks(1 / config.lrf.rate),
             "camera": config.ticks(1 / config.camera.rate),

@@ -122,7 +122,8 @@ class PanConfig:
     """The motor that turns the camera.
 
     Attributes:
-        tracker: Who commands it: `thesis` follows the LRF's estimate (4.2.1).
+        tracker: Who commands it from the scans: `thesis` follows its moving average (4.2.1), `robust` the
+            filtered position of method `lrf`, ahead by one control period.
         min_deg: Lower end of its travel [deg].
         max_deg: Upper end [deg].
         max_speed: [rad/s].
@@ -135,7 +136,7 @@ class PanConfig:
         dither_frames: Frames that one sweep takes, there and back.
     """
 
-    tracker: Literal["thesis"] = "thesis"
+    tracker: Literal["thesis", "robust"] = "thesis"
     min_deg: Real = 0.0
     max_deg: Real = 180.0
     max_speed: Positive = 0.8
