@@ -54,6 +54,7 @@ class TaskEnv(ArenaEnv):
         """
         observation, info = super().reset(seed=seed, options=options)
         self._action = np.zeros_like(self._action)
+        self._success_at: float | None = None
         nothing = Judgement(
             terms=dict.fromkeys(self.task.term_names, 0.0),
             measures=self.task.measures(),
@@ -83,7 +84,15 @@ class TaskEnv(ArenaEnv):
         self._action = checked
         truncated = info["t"] >= self.task.limit - 0.5 * self.config.timing.tick
         report = self._reported(info, judgement, collided)
-        return self._seen(observation), judgement.reward, judgement.terminated, truncated, report
+        return self._seen(observation), judgement.reward, self._ends(judgement, info["t"]), truncated, report
+
+    def _ends(self, judgement: Judgement, t: float) -> bool:
+        """Whether the episode ends here: a success may linger."""
+        if not (judgement.terminated and judgement.success):
+            return judgement.terminated
+        if self._success_at is None:
+            self._success_at = t
+        return t >= self._success_at + self.config.task.linger - 0.5 * self.config.timing.tick
 
     def _start_pose(self, options: dict[str, Any]) -> Pose2:
         """Lay out the episode: the world, start and goal."""

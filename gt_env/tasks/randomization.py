@@ -12,11 +12,12 @@ from estimators.errors import ConfigError
 from estimators.poses import Array
 from gt_env.config import EnvConfig
 from gt_env.config.merging import merge
+from gt_env.config.schema import pose_problem
 from gt_env.config.sections import RoomConfig
 from gt_env.config.sections.task import RandomizationConfig
 from gt_env.tasks.sampling import sample_point
 
-TRIES: Final = 50
+TRIES: Final = 1000
 OBSTACLE_RADIUS: Final = (0.08, 0.20)
 """Smallest and largest of random obstacles [m]."""
 OBSTACLE_HEIGHT: Final = 0.40
@@ -36,16 +37,6 @@ def drawn(config: EnvConfig, rng: np.random.Generator) -> EnvConfig:
     Raises:
         ConfigError: If no room can be drawn that holds everything.
     """
-    problem: ValueError | None = None
-    for _ in range(TRIES):
-        try:
-            return _drawn(config, rng)
-        except ValueError as error:  # a wall may have moved over the station, or the robot's configured start
-            problem = error
-    raise ConfigError(f"task.randomize: no room found in {TRIES} tries: {problem}")
-
-
-def _drawn(config: EnvConfig, rng: np.random.Generator) -> EnvConfig:
     r = config.task.randomize
 
     def factor(spread: float) -> float:
@@ -68,9 +59,8 @@ def _drawn(config: EnvConfig, rng: np.random.Generator) -> EnvConfig:
 
 def _room(config: EnvConfig, rng: np.random.Generator) -> RoomConfig:
     r, walls = config.task.randomize, config.room
-    moved = np.array(walls.vertices) + rng.uniform(-r.room, r.room, (len(walls.vertices), 2))
     obstacles: list[Any] = list(walls.obstacles)
-    room: RoomConfig = _replaced(walls, vertices=tuple((float(x), float(y)) for x, y in moved))
+    room = _walls(config, rng) if r.room else walls
     for _ in range(r.obstacles):
         radius = float(rng.uniform(*OBSTACLE_RADIUS))
         free = partial(_leaves_room, np.array(config.robot.start), config.task.margin + radius)
@@ -79,6 +69,30 @@ def _room(config: EnvConfig, rng: np.random.Generator) -> RoomConfig:
         obstacles.append({**place, "radius": radius, "height": OBSTACLE_HEIGHT})
         room = _replaced(room, obstacles=tuple(obstacles))
     return room
+
+
+def _walls(config: EnvConfig, rng: np.random.Generator) -> RoomConfig:
+    """Moved corners, with station and configured start still inside."""
+    spread, corners = config.task.randomize.room, np.array(config.room.vertices)
+    for _ in range(TRIES):
+        moved = corners + rng.uniform(-spread, spread, corners.shape)
+        walls: RoomConfig = _replaced(config.room, vertices=tuple((float(x), float(y)) for x, y in moved))
+        if _holds_everything(config, walls):
+            return walls
+    raise ConfigError(
+        f"task.randomize.room = {spread}: no room found in {TRIES} tries that holds station and robot.start"
+    )
+
+
+def _holds_everything(config: EnvConfig, walls: RoomConfig) -> bool:
+    try:
+        room = walls.in_station_frame()
+    except ConfigError:  # walls that cross
+        return False
+    station = ((0.0, 0.0), config.lrf.position, config.camera.position[:2])
+    if min(room.clearance(point) for point in station) <= 0:
+        return False
+    return pose_problem(config, room, config.start_pose) is None
 
 
 def _leaves_room(start: Array, apart: float, point: Array) -> bool:

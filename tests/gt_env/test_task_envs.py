@@ -81,6 +81,20 @@ def test_a_goal_ahead_is_reached_by_driving_straight_on(task_env):
     assert info["t"] == pytest.approx(0.9 / 0.36, abs=0.4)
 
 
+def test_a_success_may_linger(task_env):
+    env = task_env("Reach", config={**BLIND, "task": {"linger": 0.5}})
+    env.reset(seed=0, options={"pose": (0.0, 2.0, 0.0), "goal": (1.0, 2.0)})
+    times = []
+    for _ in range(60):
+        *_, terminated, _, info = env.step(np.array([0.5, 0.5]))
+        times += [info["t"]] if info["is_success"] else []
+        if terminated:
+            break
+
+    assert terminated
+    assert times[-1] - times[0] == pytest.approx(0.5)
+
+
 def test_driving_into_a_wall_is_a_collision_and_the_end(task_env):
     env = task_env("Reach")
     env.reset(seed=0, options={"pose": (3.5, 2.0, 0.0), "goal": (0.0, 2.0)})

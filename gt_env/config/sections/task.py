@@ -65,6 +65,8 @@ class TaskConfig:
         station_margin: Of the same to the LRF [m]: nearer, the pan unit cannot follow.
         min_distance: Between a sampled start and its goal, or two way-points [m].
         time_limit: After which an episode is cut off [s]; None for the task's own.
+        linger: How long an episode goes on after a success that would end it [s]: an evaluation lets the station
+            come to its own verdict.
         corridor: A path is lost at this distance beside it [m].
         path: Way-points of the path to follow [m], straight lines between them; none for sampled paths.
         waypoints: To patrol, in order [m]; none for sampled ones.
@@ -78,6 +80,7 @@ class TaskConfig:
     station_margin: NotNegative = 0.60
     min_distance: Positive = 0.50
     time_limit: Positive | None = None
+    linger: NotNegative = 0.0
     corridor: Positive = 0.30
     path: tuple[Point, ...] = ()
     waypoints: tuple[Point, ...] = ()
