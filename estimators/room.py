@@ -139,18 +139,15 @@ def _refuse_crossing(v: Array) -> None:
         if one[0] * two[1] == one[1] * two[0] and one @ two < 0:
             raise ConfigError(f"the room's wall {a.tolist()}-{b.tolist()} turns back on itself")
 
-    def side(a: Array, b: Array, c: Array) -> float:
-        return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
-
-    for i in range(n):
-        for j in range(i + 2, n - (i == 0)):
-            first = side(v[i], w[i], v[j]) * side(v[i], w[i], w[j])
-            second = side(v[j], w[j], v[i]) * side(v[j], w[j], w[i])
-            # Walls on one line are on both sides of each other; they meet only where they overlap.
-            apart = (np.maximum(v[i], w[i]) < np.minimum(v[j], w[j])) | (
-                np.maximum(v[j], w[j]) < np.minimum(v[i], w[i])
-            )
-            if first <= 0 and second <= 0 and not apart.any():
-                raise ConfigError(
-                    f"walls cross: {v[i].tolist()}-{w[i].tolist()} and {v[j].tolist()}-{w[j].tolist()}"
-                )
+    # cross[i, j]: on which side of wall i the corner j lies; two walls meet where each has the other's ends on
+    # both of its sides.
+    along, across = w - v, v[None] - v[:, None]
+    cross = along[:, None, 0] * across[..., 1] - along[:, None, 1] * across[..., 0]
+    astride = cross * np.roll(cross, -1, axis=1) <= 0
+    # Walls on one line are on both sides of each other; they meet only where they overlap.
+    low, high = np.minimum(v, w), np.maximum(v, w)
+    apart = ((high[:, None] < low[None]) | (high[None] < low[:, None])).any(axis=-1)
+    meet = np.triu(astride & astride.T & ~apart, 2)
+    meet[0, n - 1] = False  # neighbours, as the last wall ends where the first begins
+    for i, j in np.argwhere(meet)[:1]:
+        raise ConfigError(f"walls cross: {v[i].tolist()}-{w[i].tolist()} and {v[j].tolist()}-{w[j].tolist()}")
