@@ -11,6 +11,7 @@ from estimators.room import Room
 from gt_env.config import EnvConfig
 from gt_env.config.sections import Color
 from gt_env.engine import Engine
+from gt_env.walls import wall_corners
 
 FLOOR_MARGIN = 1.0
 """How far the floor goes on outside the room [m]."""
@@ -27,28 +28,15 @@ def build_scene(engine: Engine, config: EnvConfig, room: Room) -> tuple[int, lis
 
 
 def _build_walls(engine: Engine, config: EnvConfig, room: Room) -> list[int]:
-    """One box per wall, outside the polygon, long enough that neighbours overlap at convex corners."""
+    """One box per wall."""
     c = config.room
-    start, end = room.vertices, np.roll(room.vertices, -1, axis=0)
-    direction = np.stack([(v := b - a) / np.linalg.norm(v) for a, b in zip(start, end, strict=True)])
     walls = []
-    for i, (a, b) in enumerate(zip(start, end, strict=True)):
-        along = direction[i]
-        before = _overlap(direction[i - 1], along, c.wall_thickness)
-        after = _overlap(along, direction[(i + 1) % len(direction)], c.wall_thickness)
-        a, b = a - before * along, b + after * along
-        outward = np.array([along[1], -along[0]])
-        x, y = 0.5 * (a + b) + 0.5 * c.wall_thickness * outward
-        half = [0.5 * float(np.linalg.norm(b - a)), 0.5 * c.wall_thickness, 0.5 * c.wall_height]
-        yaw = math.atan2(along[1], along[0])
-        walls.append(engine.add_box([x, y, half[2]], half, yaw, c.wall_color))
+    for corners in wall_corners(room, c.wall_thickness):
+        x, y = corners.mean(axis=0).tolist()
+        along = corners[1] - corners[0]
+        half = [0.5 * float(np.linalg.norm(along)), 0.5 * c.wall_thickness, 0.5 * c.wall_height]
+        walls.append(engine.add_box([x, y, half[2]], half, math.atan2(along[1], along[0]), c.wall_color))
     return walls
-
-
-def _overlap(before: np.ndarray, after: np.ndarray, thickness: float) -> float:
-    """How far a wall goes on past a corner to close it from outside [m]; not at all at a reflex corner."""
-    turn = math.atan2(before[0] * after[1] - before[1] * after[0], float(before @ after))
-    return thickness * math.tan(0.5 * min(turn, 0.9 * math.pi)) + 0.001 if turn > 0 else 0.0
 
 
 def _build_obstacles(engine: Engine, config: EnvConfig) -> list[int]:

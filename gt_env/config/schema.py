@@ -151,15 +151,11 @@ def _camera_problems(c: EnvConfig) -> Iterator[str]:
                 f"camera.renderer = 'tiny'"
             )
         for i, obstacle in enumerate(c.room.obstacles if camera.enabled else ()):
-            yield (
-                f"room.obstacles.{i} ({obstacle.shape}): camera.renderer = 'fast' draws no obstacles: use "
-                f"camera.renderer = 'tiny'"
-            )
-        if c.task.randomize.obstacles and camera.enabled:
-            yield (
-                f"task.randomize.obstacles = {c.task.randomize.obstacles}: camera.renderer = 'fast' draws no "
-                f"obstacles: use camera.renderer = 'tiny', or camera.enabled = false"
-            )
+            if obstacle.shape == "urdf":
+                yield (
+                    f"room.obstacles.{i} = {obstacle.file!r}: camera.renderer = 'fast' cannot draw a URDF: use "
+                    f"camera.renderer = 'tiny', or an obstacle of shape 'box' or 'cylinder'"
+                )
         return
     for key, value, plain in (
         ("camera.exposure_time", camera.exposure_time, 0.0),

@@ -1,4 +1,4 @@
-"""What one slab of the picture shows: room, posts and robot from back to front."""
+"""What one slab of the picture shows: room, obstacles and robot from back to front."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 
 from gt_env.fast_camera.bands import FAR_BELOW, Bands, start
 from gt_env.fast_camera.compiling import compiled
-from gt_env.fast_camera.crossing import cut_box, row_of
+from gt_env.fast_camera.crossing import cut_box, cut_disc, row_of
 from gt_env.fast_camera.placed import Placed
 from gt_env.fast_camera.receivers import level_shadow
 from gt_env.fast_camera.robot import paint_robot, robot_depth
@@ -26,19 +26,16 @@ def fill(scene: Tables, placed: Placed, bands: Bands, left: float, right: float)
     middle = 0.5 * (left + right)
     start(bands, scene.backdrop)
     cut = _floor(scene, placed, bands, ka, kb)
+    alone = scene.boxes == MARKERS + scene.markers + scene.walls and not _pillar_at(scene, placed, middle)
     if placed.window[0] <= middle <= placed.window[1]:
-        # In a room that is not convex a wall may stand before the robot.
-        robot = 0.0 if scene.convex else robot_depth(scene, placed, 0.5 * (ka + kb))
-        cut = min(cut, _walls(scene, placed, bands, ka, kb, middle, robot, math.inf))
-        cut = min(cut, _posts(scene, placed, bands, ka, kb, middle, True))
+        if alone and scene.convex:  # the walls are behind the robot
+            cut = min(cut, _standing(scene, placed, bands, ka, kb, middle, 0.0, math.inf, alone))
+            return min(cut, paint_robot(scene, placed, bands, ka, kb, middle))
+        robot = robot_depth(scene, placed, 0.5 * (ka + kb))
+        cut = min(cut, _standing(scene, placed, bands, ka, kb, middle, robot, math.inf, alone))
         cut = min(cut, paint_robot(scene, placed, bands, ka, kb, middle))
-        if not scene.convex:
-            cut = min(cut, _walls(scene, placed, bands, ka, kb, middle, -math.inf, robot))
-    else:
-        cut = min(cut, _walls(scene, placed, bands, ka, kb, middle, -math.inf, math.inf))
-        cut = min(cut, _posts(scene, placed, bands, ka, kb, middle, True))
-    cut = min(cut, _posts(scene, placed, bands, ka, kb, middle, False))
-    return cut
+        return min(cut, _standing(scene, placed, bands, ka, kb, middle, -math.inf, robot, alone))
+    return min(cut, _standing(scene, placed, bands, ka, kb, middle, -math.inf, math.inf, alone))
 
 
 @compiled
@@ -61,7 +58,8 @@ def _floor(scene: Tables, placed: Placed, bands: Bands, ka: float, kb: float) ->
                 scene,
                 placed,
                 bands,
-                FLOOR,
+                scene.colors[FLOOR],
+                placed.facing[FLOOR, 4],
                 BY_TARGET + BY_BODY,
                 0.0,
                 ka,
@@ -76,7 +74,16 @@ def _floor(scene: Tables, placed: Placed, bands: Bands, ka: float, kb: float) ->
 
 
 @compiled
-def _walls(
+def _pillar_at(scene: Tables, placed: Placed, middle: float) -> bool:
+    """Whether a column [px] shows a pillar."""
+    seen = False
+    for n in range(scene.pillar_count):
+        seen = seen or placed.pillar_span[n, 0] <= middle <= placed.pillar_span[n, 1]
+    return seen
+
+
+@compiled
+def _standing(
     scene: Tables,
     placed: Placed,
     bands: Bands,
@@ -85,44 +92,51 @@ def _walls(
     middle: float,
     begin: float,
     end: float,
+    alone: bool,
 ) -> float:
-    """Walls that are entered between two depths [m]."""
-    cut = 1.0
-    first_wall, boxes = MARKERS + scene.markers, scene.boxes
+    """What stands on the floor and is entered between two depths [m], the farther ones first.
+
+    `alone` says that these are only walls.
+    """
+    cut, km = 1.0, 0.5 * (ka + kb)
+    first_wall = MARKERS + scene.markers
+    obstacles = first_wall + scene.walls
+    wall, nearest = -1, math.inf
+    if scene.eye[2] <= scene.heights[first_wall, 1]:  # the nearest wall hides all other walls
+        for q in range(first_wall, obstacles):
+            if placed.span[q, 0] <= middle <= placed.span[q, 1]:
+                first, last, _ = cut_box(placed.corners[q], km)
+                if last > scene.lens[3] and begin <= first < min(end, nearest):
+                    wall, nearest = q, first
+        if alone:
+            return paint_box(scene, placed, bands, wall, ka, kb) if wall >= 0 else 1.0
     hidden = end
     while True:  # the farthest one that has not been painted
-        wall, depth, nearest, nearest_depth = -1, -math.inf, -1, math.inf
-        for q in range(first_wall, boxes):
-            if placed.span[q, 0] <= middle <= placed.span[q, 1]:
-                first, last, _ = cut_box(placed.corners[q], 0.5 * (ka + kb))
-                if last <= scene.lens[3] or not begin <= first < end:
-                    continue
-                if depth < first < hidden:
-                    wall, depth = q, first
-                if first < nearest_depth:
-                    nearest, nearest_depth = q, first
-        if wall < 0:
+        found, depth = -1, -math.inf
+        for q in range(first_wall, scene.boxes):
+            if (q < obstacles and wall >= 0 and q != wall) or not (
+                placed.span[q, 0] <= middle <= placed.span[q, 1]
+            ):
+                continue
+            first, last, _ = cut_box(placed.corners[q], km)
+            if last > scene.lens[3] and max(begin, depth) <= first < hidden:
+                found, depth = q, first
+        for n in range(scene.pillar_count):
+            if placed.pillar_span[n, 0] <= middle <= placed.pillar_span[n, 1]:
+                first, last = cut_disc(placed.pillars[n, 0], placed.pillars[n, 1], scene.pillars[n, 2], km)
+                if last > scene.lens[3] and max(begin, depth) <= first < hidden:
+                    found, depth = scene.boxes + n, first
+        if found < 0:
             return cut
-        if scene.eye[2] <= scene.heights[wall, 1]:  # the nearest hides all others
-            return min(cut, paint_box(scene, placed, bands, nearest, ka, kb))
-        cut = min(cut, paint_box(scene, placed, bands, wall, ka, kb))
+        if found < scene.boxes:
+            cut = min(cut, paint_box(scene, placed, bands, found, ka, kb))
+        else:
+            cut = min(cut, _pillar(scene, placed, bands, found - scene.boxes, ka, kb))
         hidden = depth
 
 
 @compiled
-def _posts(
-    scene: Tables, placed: Placed, bands: Bands, ka: float, kb: float, middle: float, behind: bool
-) -> float:
-    """What stands below the sensors: before or behind the robot."""
-    cut = 1.0
-    for n in range(scene.post_count):
-        farther = placed.posts[n, 0] > placed.target[0]
-        if farther == behind and placed.post_span[n, 0] <= middle <= placed.post_span[n, 1]:
-            size = (scene.posts[n, 2], 0.0, scene.posts[n, 3])
-            cut = min(
-                cut,
-                tube(
-                    scene, placed, bands, placed.posts[n], size, scene.post_color, BY_TARGET + BY_BODY, ka, kb
-                ),
-            )
-    return cut
+def _pillar(scene: Tables, placed: Placed, bands: Bands, n: int, ka: float, kb: float) -> float:
+    size = (scene.pillars[n, 2], 0.0, scene.pillars[n, 3])
+    color, casts = scene.pillar_colors[n], BY_TARGET + BY_BODY
+    return tube(scene, placed, bands, placed.pillars[n], size, color, casts, ka, kb)

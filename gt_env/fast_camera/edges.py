@@ -6,7 +6,7 @@ import math
 
 from gt_env.fast_camera.compiling import compiled
 from gt_env.fast_camera.placed import EDGES, Placed
-from gt_env.fast_camera.tables import Tables
+from gt_env.fast_camera.tables import MARKERS, Tables
 
 TANGENT_STEPS = (0.1, 0.4, 1.1)
 """Where slabs end next to a round thing's limb [px], whose outline turns fast there."""
@@ -49,15 +49,27 @@ def add_shadow_edges(scene: Tables, placed: Placed) -> None:
             if up > 1e-6:
                 add_edge(scene, placed, x - low / up * ahead, y - low / up * aside)
                 add_edge(scene, placed, x - high / up * ahead, y - high / up * aside)
-            for q in range(2 + scene.markers, scene.boxes):
-                from_depth, from_right = placed.corners[q, 3, 0], placed.corners[q, 3, 1]
-                to_depth, to_right = placed.corners[q, 2, 0], placed.corners[q, 2, 1]
-                one = (from_depth - x) * aside - (from_right - y) * ahead
-                two = (to_depth - x) * aside - (to_right - y) * ahead
-                if (one > 0.0) != (two > 0.0):
-                    share = one / (one - two)
-                    depth = from_depth + share * (to_depth - from_depth)
-                    add_edge(scene, placed, depth, from_right + share * (to_right - from_right))
+            for q in range(MARKERS + scene.markers, scene.boxes):
+                wall = q < MARKERS + scene.markers + scene.walls
+                for side in range(4):
+                    if side == 2 or not wall:  # of a wall one sees the inner face
+                        _add_line(scene, placed, q, side, x, y, ahead, aside)
+
+
+@compiled
+def _add_line(
+    scene: Tables, placed: Placed, q: int, side: int, x: float, y: float, ahead: float, aside: float
+) -> None:
+    """The column where the upright plane through a point along the light cuts a side of a box."""
+    after = (side + 1) % 4
+    from_depth, from_right = placed.corners[q, side, 0], placed.corners[q, side, 1]
+    to_depth, to_right = placed.corners[q, after, 0], placed.corners[q, after, 1]
+    one = (from_depth - x) * aside - (from_right - y) * ahead
+    two = (to_depth - x) * aside - (to_right - y) * ahead
+    if (one > 0.0) != (two > 0.0):
+        share = one / (one - two)
+        depth = from_depth + share * (to_depth - from_depth)
+        add_edge(scene, placed, depth, from_right + share * (to_right - from_right))
 
 
 @compiled

@@ -67,8 +67,8 @@ def _widest(scene: Tables, placed: Placed, left: float) -> float:
             return WHEEL_STEP
     if placed.window[0] - SLIVER <= left < placed.window[1]:
         return ROBOT_STEP
-    for n in range(scene.post_count):
-        if placed.post_span[n, 0] - SLIVER <= left < placed.post_span[n, 1]:
+    for n in range(scene.pillar_count):
+        if placed.pillar_span[n, 0] - SLIVER <= left < placed.pillar_span[n, 1]:
             return ROBOT_STEP
     return math.inf
 

@@ -6,6 +6,8 @@ slab and asking for every interval which layer covers it last. No shadows; wheel
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -32,13 +34,11 @@ def expose_layers(scene: Tables, placed: Placed, sums: NDArray[np.float32], shar
         sides = np.unique(np.concatenate([np.arange(begin, end + 0.5 * step, step), own]))
         middle, size = 0.5 * (sides[1:] + sides[:-1]), np.diff(sides)
         k = (middle - scene.lens[1]) / scene.lens[0]
-        robot = _robot_depth(scene, placed, k) if step == ROBOT_STEP else np.zeros(len(k))
-        layers = [_floor(scene, placed, k), *_walls(scene, placed, k, robot, np.full(len(k), np.inf))]
-        layers += _posts(scene, placed, k, behind=True)
+        robot = _robot_depth(scene, placed, k) if step == ROBOT_STEP else np.full(len(k), -np.inf)
+        layers = [_floor(scene, placed, k), *_standing(scene, placed, k, robot, np.full(len(k), np.inf))]
         if step == ROBOT_STEP:
             layers += _robot(scene, placed, k)
-            layers += _walls(scene, placed, k, np.zeros(len(k)), robot)
-        layers += _posts(scene, placed, k, behind=False)
+            layers += _standing(scene, placed, k, np.full(len(k), -np.inf), robot)
         _deposit(layers, scene.backdrop, sums, middle.astype(np.intp), share * size)
 
 
@@ -93,61 +93,79 @@ def _cut_disc(at: Floats, radius: float, k: Floats) -> tuple[Floats, Floats]:
     return np.where(rest > 0, (b - root) / a, NOTHING), np.where(rest > 0, (b + root) / a, -NOTHING)
 
 
-def _prism(
-    scene: Tables, heights: Floats, first: Floats, last: Floats, side: Floats, top: Floats, low: Floats
-) -> list[Layer]:
-    """Visible faces of something upright: RGB of its side (N, 3), of its top and its underside."""
-    seen = (last > scene.lens[3]) & (first < last)
-    begin = np.where(seen, first, NOTHING)
-    upper, lower = _row(scene, heights[1], begin), _row(scene, heights[0], begin)
-    faces = [Layer(np.where(seen, upper, -BEYOND), np.where(seen, lower, -BEYOND), side)]
-    if scene.eye[2] > heights[1]:
-        back = np.where(seen, _row(scene, heights[1], last), -BEYOND)
-        faces.append(Layer(back, np.where(seen, upper, -BEYOND), top))
-    if scene.eye[2] < heights[0]:
-        back = np.where(seen, _row(scene, heights[0], last), -BEYOND)
-        faces.append(Layer(np.where(seen, lower, -BEYOND), back, low))
-    return faces
+class Solid(NamedTuple):
+    """Something upright in every column.
+
+    Depths (N,) where it begins and ends, RGB of its side (N, 3), of its top and of its underside (3,), lower
+    and upper end [m].
+    """
+
+    first: Floats
+    last: Floats
+    side: Floats
+    top: Floats
+    underside: Floats
+    low: float
+    high: float
 
 
-def _boxes(
+def _prism(scene: Tables, solid: Solid) -> list[Layer]:
+    """Visible faces of something upright."""
+    seen = (solid.last > scene.lens[3]) & (solid.first < solid.last)
+    begin, end = np.where(seen, solid.first, NOTHING), np.where(seen, solid.last, NOTHING)
+    upper, lower = _row(scene, solid.high, begin), _row(scene, solid.low, begin)
+    faces = [(upper, lower, solid.side)]
+    if scene.eye[2] > solid.high:
+        faces.append((_row(scene, solid.high, end), upper, solid.top))
+    if scene.eye[2] < solid.low:
+        faces.append((lower, _row(scene, solid.low, end), solid.underside))
+    return [Layer(np.where(seen, a, -BEYOND), np.where(seen, b, -BEYOND), color) for a, b, color in faces]
+
+
+def _boxes(scene: Tables, placed: Placed, k: Floats, first_box: int, count: int) -> list[Solid]:
+    own = slice(first_box, first_box + count)
+    first, last, side = _cut_boxes(placed.corners[own], k)
+    lit, ends = placed.lit[own], scene.heights[own]
+    return [
+        Solid(first[i], last[i], lit[i][side[i]], lit[i, 4], lit[i, 5], ends[i, 0], ends[i, 1])
+        for i in range(count)
+    ]
+
+
+def _tube(
     scene: Tables,
     placed: Placed,
     k: Floats,
-    first_box: int,
-    count: int,
-    limit: Floats,
-    begin: Floats | None = None,
-    end: Floats | None = None,
-) -> list[Layer]:
-    """Boxes from the farthest to the nearest in every column, cut off at a depth (N,).
+    at: Floats,
+    radius: float,
+    low: float,
+    high: float,
+    albedo: Floats,
+) -> Solid:
+    first, last = _cut_disc(at, radius, k)
+    normal = np.stack([(first - at[0]) / radius, (k * first - at[1]) / radius, np.zeros(len(k))], axis=1)
+    normal[first == NOTHING] = 0.0
+    ends = shade_all(scene, placed.lamp, albedo, np.array([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]))
+    side = shade_all(scene, placed.lamp, albedo, normal)
+    return Solid(first, last, side, ends[0], ends[1], low, high)
 
-    Only those are painted that are entered between two depths (N,).
-    """
-    if count == 0:
+
+def _far_first(scene: Tables, solids: list[Solid]) -> list[Layer]:
+    """Layers of solids such that in every column the nearer one is painted later."""
+    if not solids:
         return []
-    own = slice(first_box, first_box + count)
-    first, last, side = _cut_boxes(placed.corners[own], k)
-    last = np.minimum(last, limit)
-    if begin is not None and end is not None:
-        last = np.where((begin <= first) & (first < end), last, -NOTHING)
-    order = np.argsort(-np.where(last > scene.lens[3], first, NOTHING), axis=0)
-    if first_box > BODY + scene.markers and scene.eye[2] <= scene.heights[first_box, 1]:
-        order = order[-1:]  # the nearest wall hides all others
-    layers, columns = [], np.arange(len(k))
-    for box in order:
-        lit = placed.lit[own][box]
-        shade = lit[columns, side[box, columns]]
-        layers += _prism(
-            scene,
-            scene.heights[first_box],
-            first[box, columns],
-            last[box, columns],
-            shade,
-            lit[:, 4],
-            lit[:, 5],
-        )
-    return layers
+    layers: list[list[Layer]] = [_prism(scene, solid) for solid in solids]
+    faces = max(len(of) for of in layers)
+    blank = np.full(len(solids[0].first), -BEYOND)
+    depth = np.array([np.where(s.last > scene.lens[3], s.first, NOTHING) for s in solids])
+    order, columns = np.argsort(-depth, axis=0), np.arange(depth.shape[1])
+    found = []
+    for face in range(faces):
+        own = [of[face] if face < len(of) else Layer(blank, blank, np.zeros(3)) for of in layers]
+        top, low = np.array([layer.top for layer in own]), np.array([layer.low for layer in own])
+        color = np.array([np.broadcast_to(layer.color, (len(columns), 3)) for layer in own])
+        found.append([Layer(top[o, columns], low[o, columns], color[o, columns]) for o in order])
+    return [layer for of_one in zip(*found, strict=True) for layer in of_one]
 
 
 def _floor(scene: Tables, placed: Placed, k: Floats) -> Layer:
@@ -155,11 +173,21 @@ def _floor(scene: Tables, placed: Placed, k: Floats) -> Layer:
     return Layer(_row(scene, 0.0, end[0]), np.full(len(k), BEYOND), placed.lit[FLOOR, 4])
 
 
-def _walls(scene: Tables, placed: Placed, k: Floats, begin: Floats, end: Floats) -> list[Layer]:
-    """Walls that are entered between two depths (N,)."""
+def _standing(scene: Tables, placed: Placed, k: Floats, begin: Floats, end: Floats) -> list[Layer]:
+    """Walls, obstacles and posts that are entered between two depths (N,)."""
     walls = MARKERS + scene.markers
-    limit = np.full(len(k), NOTHING)
-    return _boxes(scene, placed, k, walls, scene.boxes - walls, limit, begin, end)
+    solids = _boxes(scene, placed, k, walls, scene.walls)
+    if scene.eye[2] <= scene.heights[walls, 1]:  # the nearest wall hides all other walls
+        depth = [np.where((s.last > scene.lens[3]) & (begin <= s.first), s.first, NOTHING) for s in solids]
+        nearest = np.min(depth, axis=0)
+        solids = [s._replace(last=np.where(s.first <= nearest, s.last, -NOTHING)) for s in solids]
+    solids += _boxes(scene, placed, k, walls + scene.walls, scene.boxes - walls - scene.walls)
+    for n in range(scene.pillar_count):
+        _, _, radius, high = scene.pillars[n]
+        solids.append(_tube(scene, placed, k, placed.pillars[n], radius, 0.0, high, scene.pillar_colors[n]))
+    for i, s in enumerate(solids):
+        solids[i] = s._replace(last=np.where((begin <= s.first) & (s.first < end), s.last, -NOTHING))
+    return _far_first(scene, [s for s in solids if (s.last > scene.lens[3]).any()])
 
 
 def _robot_depth(scene: Tables, placed: Placed, k: Floats) -> Floats:
@@ -168,26 +196,6 @@ def _robot_depth(scene: Tables, placed: Placed, k: Floats) -> Floats:
     target, _ = _cut_disc(placed.target, scene.target[2], k)
     depth = np.minimum(body[0], target)
     return np.asarray(np.where(depth == NOTHING, placed.target[0] - scene.wheels[0, 1], depth))
-
-
-def _tube(
-    scene: Tables, placed: Placed, k: Floats, at: Floats, radius: float, heights: Floats, albedo: Floats
-) -> list[Layer]:
-    first, last = _cut_disc(at, radius, k)
-    normal = np.stack([(first - at[0]) / radius, (k * first - at[1]) / radius, np.zeros(len(k))], axis=1)
-    normal[first == NOTHING] = 0.0
-    ends = shade_all(scene, placed.lamp, albedo, np.array([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]))
-    side = shade_all(scene, placed.lamp, albedo, normal)
-    return _prism(scene, heights, first, last, side, ends[0], ends[1])
-
-
-def _posts(scene: Tables, placed: Placed, k: Floats, *, behind: bool) -> list[Layer]:
-    layers = []
-    for n in range(scene.post_count):
-        if (placed.posts[n, 0] > placed.target[0]) == behind:
-            heights = np.array([0.0, scene.posts[n, 3]])
-            layers += _tube(scene, placed, k, placed.posts[n], scene.posts[n, 2], heights, scene.post_color)
-    return layers
 
 
 def _robot(scene: Tables, placed: Placed, k: Floats) -> list[Layer]:
@@ -199,7 +207,7 @@ def _robot(scene: Tables, placed: Placed, k: Floats) -> list[Layer]:
         y = abs(scene.wheels[i, 0]) - 0.5 * scene.wheels[i, 2]
         beyond = np.sign(scene.wheels[i, 0]) * eye_y <= y
         (far if beyond else near).extend(wheel_layers(scene, placed, k, i))
-    body = _boxes(scene, placed, k, BODY, 1, np.full(len(k), NOTHING))
+    body = _far_first(scene, _boxes(scene, placed, k, BODY, 1))
     balls = ball_layers(scene, placed, k)
     chassis = [*balls, *body] if eye_z > scene.heights[BODY, 0] else [*body, *balls]
     target = _target(scene, placed, k)
@@ -211,9 +219,8 @@ def _robot(scene: Tables, placed: Placed, k: Floats) -> list[Layer]:
 
 
 def _target(scene: Tables, placed: Placed, k: Floats) -> list[Layer]:
-    radius, heights = scene.target[2], scene.target[3:5]
-    wall, _ = _cut_disc(placed.target, radius, k)
-    return [
-        *_tube(scene, placed, k, placed.target, radius, heights, scene.target_color),
-        *_boxes(scene, placed, k, MARKERS, scene.markers, wall),
-    ]
+    _, _, radius, low, high = scene.target
+    cylinder = _tube(scene, placed, k, placed.target, radius, low, high, scene.target_color)
+    markers = _boxes(scene, placed, k, MARKERS, scene.markers)
+    proud = [m._replace(last=np.minimum(m.last, cylinder.first)) for m in markers]
+    return [*_prism(scene, cylinder), *_far_first(scene, proud)]

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gt_env.fast_camera.solids import Floats
-from gt_env.fast_camera.tables import MOST_BOXES, MOST_LAMPS, POSTS, record
+from gt_env.fast_camera.tables import MOST_BOXES, MOST_LAMPS, MOST_PILLARS, record
 
 MOST_SHADOWS = 2 * MOST_LAMPS
-EDGES = 1024
+EDGES = 2048
 """Room for columns at which the picture's structure changes."""
 
 PLACED = np.dtype(
@@ -30,8 +30,8 @@ PLACED = np.dtype(
         ("lamp", "f8", (MOST_LAMPS, 3)),
         ("robot_lamp", "f8", (MOST_LAMPS, 3)),
         ("casters", "f8", (2, 2)),
-        ("posts", "f8", (POSTS, 2)),
-        ("post_span", "f8", (POSTS, 2)),
+        ("pillars", "f8", (MOST_PILLARS, 2)),
+        ("pillar_span", "f8", (MOST_PILLARS, 2)),
         ("window", "f8", 6),
         ("turned", "f8", (4, 2)),
         ("cosines", "f8", MOST_LAMPS),
@@ -58,8 +58,8 @@ class Placed(Protocol):
         lamp: (L, 3) directions to the lamps: depth, right, up.
         robot_lamp: (L, 3) in the robot's frame.
         casters: (2, 2) of their middles [m].
-        posts: (2, 2) of their axes [m].
-        post_span: (2, 2) first and last column of each [px].
+        pillars: (P, 2) of their axes [m].
+        pillar_span: (P, 2) first and last column of each [px].
         window: (6,) first and last column of the robot, of the left and of the right wheel [px].
         turned: (4, 2) scratch: the body's corners in other axes [m].
         cosines: (L,) scratch: between a curved face's normal and the lamps.
@@ -79,8 +79,8 @@ class Placed(Protocol):
     lamp: Floats
     robot_lamp: Floats
     casters: Floats
-    posts: Floats
-    post_span: Floats
+    pillars: Floats
+    pillar_span: Floats
     window: Floats
     turned: Floats
     cosines: Floats

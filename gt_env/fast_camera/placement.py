@@ -35,15 +35,15 @@ def place(scene: Tables, placed: Placed, x: float, y: float, yaw: float, pan: fl
     placed.robot[2], placed.robot[3] = c * axis_x + s * axis_y, c * axis_y - s * axis_x
     placed.robot[4], placed.robot[5] = c * axis_y - s * axis_x, -c * axis_x - s * axis_y
     _place_round(scene, placed)
-    for v in range(scene.boxes - 2 - scene.markers):
+    for v in range(scene.walls):
         dx, dy = scene.room[v, 0] - eye_x, scene.room[v, 1] - eye_y
         add_edge(scene, placed, dx * axis_x + dy * axis_y, dx * axis_y - dy * axis_x)
-    for n in range(scene.post_count):
-        dx, dy = scene.posts[n, 0] - eye_x, scene.posts[n, 1] - eye_y
-        placed.posts[n, 0], placed.posts[n, 1] = dx * axis_x + dy * axis_y, dx * axis_y - dy * axis_x
-        placed.post_span[n, 0], placed.post_span[n, 1] = limbs(
-            scene, placed, placed.posts[n, 0], placed.posts[n, 1], scene.posts[n, 2]
-        )
+    for n in range(scene.pillar_count):
+        dx, dy = scene.pillars[n, 0] - eye_x, scene.pillars[n, 1] - eye_y
+        depth, right = dx * axis_x + dy * axis_y, dx * axis_y - dy * axis_x
+        placed.pillars[n, 0], placed.pillars[n, 1] = depth, right
+        first, last = limbs(scene, placed, depth, right, scene.pillars[n, 2])
+        placed.pillar_span[n, 0], placed.pillar_span[n, 1] = first, last
     if scene.shadow:
         add_shadow_edges(scene, placed)
     placed.edges[: placed.count].sort()

@@ -26,7 +26,8 @@ def level_shadow(
     scene: Tables,
     placed: Placed,
     bands: Bands,
-    q: int,
+    albedo: Floats,
+    facing: Floats,
     casts: int,
     z: float,
     ka: float,
@@ -36,7 +37,7 @@ def level_shadow(
     last_a: float,
     last_b: float,
 ) -> float:
-    """Shadows on the upper face of a box between two depths."""
+    """Shadows on a level face of a colour, with cosines (L,) to the lamps, between two depths."""
     clear_shadows(placed)
     km = 0.5 * (ka + kb)
     for lamp in range(scene.lamp_count):
@@ -59,9 +60,7 @@ def level_shadow(
         return 1.0
     top_a, top_b = row_of(scene, z, last_a), row_of(scene, z, last_b)
     low_a, low_b = row_of(scene, z, first_a), row_of(scene, z, first_b)
-    return paint_shadows(
-        scene, placed, bands, scene.colors[q], placed.facing[q, 4], top_a, top_b, low_a, low_b
-    )
+    return paint_shadows(scene, placed, bands, albedo, facing, top_a, top_b, low_a, low_b)
 
 
 @compiled

@@ -10,7 +10,7 @@ import math
 
 from gt_env.fast_camera.bands import Bands
 from gt_env.fast_camera.compiling import compiled
-from gt_env.fast_camera.crossing import cut_box, cut_disc, see_wheel
+from gt_env.fast_camera.crossing import NOTHING, cut_box, cut_disc, see_wheel
 from gt_env.fast_camera.placed import Placed
 from gt_env.fast_camera.shadow import BY_BODY
 from gt_env.fast_camera.tables import BODY, MARKERS, Tables
@@ -28,7 +28,7 @@ def robot_depth(scene: Tables, placed: Placed, k: float) -> float:
         top, _, _, low, _, depth = see_wheel(scene, placed, i, k)
         if top > low:
             first = min(first, depth)
-    return first
+    return first if first < NOTHING else placed.target[0]  # only a marker's side
 
 
 @compiled

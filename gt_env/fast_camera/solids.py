@@ -47,24 +47,9 @@ def marker_feet(config: EnvConfig) -> Floats:
     return np.array(feet).reshape(-1, 2, 2)
 
 
-def wall_corners(room: Room, thickness: float) -> Floats:
-    """Corners (V, 4, 2) of the walls' boxes [m], as `scene.build_scene` makes them."""
-    start, end = room.edges
-    along = (end - start) / np.linalg.norm(end - start, axis=1)[:, None]
-    boxes = []
-    for i, (a, b) in enumerate(zip(start, end, strict=True)):
-        d = along[i]
-        a = a - _overlap(along[i - 1], d, thickness) * d
-        b = b + _overlap(d, along[(i + 1) % len(along)], thickness) * d
-        outward = thickness * np.array([d[1], -d[0]])
-        boxes.append([a + outward, b + outward, b, a])
-    return np.array(boxes)
-
-
-def _overlap(before: Floats, after: Floats, thickness: float) -> float:
-    """How far a wall goes on past a convex corner [m]."""
-    turn = math.atan2(before[0] * after[1] - before[1] * after[0], float(before @ after))
-    return thickness * math.tan(0.5 * min(turn, 0.9 * math.pi)) + 0.001 if turn > 0 else 0.0
+def obstacle_corners(config: EnvConfig) -> Floats:
+    """Corners (B, 4, 2) of the obstacles that are boxes [m]."""
+    return np.array([o.footprint() for o in config.room.obstacles if o.shape == "box"]).reshape(-1, 4, 2)
 
 
 def floor_corners(room: Room) -> Floats:
@@ -75,8 +60,7 @@ def floor_corners(room: Room) -> Floats:
 
 
 def is_convex(room: Room) -> bool:
-    """Whether every corner turns left."""
-    start, end = room.edges
-    along = end - start
+    """Whether every corner of the walls turns left."""
+    along = np.roll(room.vertices, -1, axis=0) - room.vertices
     after = np.roll(along, -1, axis=0)
     return bool((along[:, 0] * after[:, 1] - along[:, 1] * after[:, 0] >= 0).all())

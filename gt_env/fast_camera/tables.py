@@ -11,6 +11,7 @@ import numpy as np
 from estimators.errors import ConfigError
 from estimators.room import Room
 from gt_env.config import EnvConfig
+from gt_env.config.sections import Color
 from gt_env.fast_camera.compiling import COMPILED
 from gt_env.fast_camera.light import planck_gain
 from gt_env.fast_camera.solids import (
@@ -19,21 +20,24 @@ from gt_env.fast_camera.solids import (
     is_convex,
     marker_corners,
     marker_feet,
+    obstacle_corners,
     rectangle,
-    wall_corners,
 )
 from gt_env.robot_model import CASTER_GAP, CASTER_RADIUS
 from gt_env.scene import STATION_COLOR
+from gt_env.walls import wall_corners
 
 FLOOR, BODY, MARKERS = 0, 1, 2
-"""Index of the floor, the robot's body and the first marker among the boxes; the walls come last."""
+"""Index of the floor, the robot's body and the first marker among the boxes; then come
+the walls and last the obstacles."""
 
 
-MOST_WALLS, MOST_MARKERS, MOST_LAMPS, POSTS = 64, 24, 8, 2
+MOST_WALLS, MOST_MARKERS, MOST_LAMPS, MOST_OBSTACLES = 64, 24, 8, 32
 """Room in the tables, whose shapes are fixed so that the kernel is compiled once for all scenes."""
 POST_RADIUS = 0.02
 """Of the posts that carry the sensors [m]."""
-MOST_BOXES = 2 + MOST_MARKERS + MOST_WALLS
+MOST_BOXES = 2 + MOST_MARKERS + MOST_WALLS + MOST_OBSTACLES
+MOST_PILLARS = 2 + MOST_OBSTACLES
 
 SCENE = np.dtype(
     [
@@ -44,6 +48,7 @@ SCENE = np.dtype(
         ("colors", "f8", (MOST_BOXES, 3)),
         ("boxes", "i8"),
         ("markers", "i8"),
+        ("walls", "i8"),
         ("feet", "f8", (MOST_MARKERS, 2, 2)),
         ("convex", "i8"),
         ("room", "f8", (MOST_WALLS, 2)),
@@ -53,9 +58,9 @@ SCENE = np.dtype(
         ("casters", "f8", (2, 4)),
         ("wheel_color", "f8", 3),
         ("wheel_levels", "f8"),
-        ("posts", "f8", (POSTS, 4)),
-        ("post_count", "i8"),
-        ("post_color", "f8", 3),
+        ("pillars", "f8", (MOST_PILLARS, 4)),
+        ("pillar_colors", "f8", (MOST_PILLARS, 3)),
+        ("pillar_count", "i8"),
         ("ambient", "f8", 3),
         ("lamps", "f8", (MOST_LAMPS, 3)),
         ("lamp_color", "f8", (MOST_LAMPS, 3)),
@@ -89,9 +94,9 @@ class Tables(Protocol):
         casters: (2, 4) x, y, z, radius [m].
         wheel_color: (3,) of wheels and casters.
         wheel_levels: Grey levels between the brightest and the darkest part of a wheel.
-        posts: (2, 4) x, y, radius, upper end [m] of upright cylinders that stand on the floor.
-        post_count: Number of those that can be seen.
-        post_color: (3,).
+        pillars: (P, 4) x, y, radius, upper end [m] of upright cylinders on the floor: sensors' posts, obstacles.
+        pillar_colors: (P, 3).
+        pillar_count: Number of pillars.
         ambient: (3,) share of its own colour that every surface has without lamps.
         lamps: (L, 3) positions [m].
         lamp_color: (L, 3) what each lamp adds to this share where it shines straight on a surface.
@@ -107,6 +112,7 @@ class Tables(Protocol):
     colors: Floats
     boxes: int
     markers: int
+    walls: int
     feet: Floats
     convex: int
     room: Floats
@@ -116,9 +122,9 @@ class Tables(Protocol):
     casters: Floats
     wheel_color: Floats
     wheel_levels: float
-    posts: Floats
-    post_count: int
-    post_color: Floats
+    pillars: Floats
+    pillar_colors: Floats
+    pillar_count: int
     ambient: Floats
     lamps: Floats
     lamp_color: Floats
@@ -149,20 +155,22 @@ def tables(config: EnvConfig, room: Room, gain: float, temperature: float) -> Ta
     body = rectangle(0.0, 0.0, 0.5 * robot.length, 0.5 * width, 0.0)
     middle = 0.5 * (target.z_min + target.z_max)
     low, high = middle - 0.5 * target.marker_height, middle + 0.5 * target.marker_height
+    boxes = [o for o in config.room.obstacles if o.shape == "box"]
     tall = len(markers) * [(low, high)] + len(walls) * [(0.0, config.room.wall_height)]
+    tall += [(0.0, box.height) for box in boxes]
     colors = [
         config.room.floor_color,
         robot.color,
         *target.marker_colors,
         *len(walls) * [config.room.wall_color],
+        *(box.color for box in boxes),
     ]
     caster = 0.5 * robot.length - 1.5 * CASTER_RADIUS
-    x, y, z = camera.position
-    corners = np.concatenate([[floor_corners(room)], [body], markers, walls])
+    corners = np.concatenate([[floor_corners(room)], [body], markers, walls, obstacle_corners(config)])
     scene = record(SCENE)
     scene.eye[:] = camera.position
     scene.lens[:] = focal, 0.5 * camera.width, 0.5 * camera.height, camera.near
-    scene.boxes, scene.markers = len(corners), len(markers)
+    scene.boxes, scene.markers, scene.walls = len(corners), len(markers), len(walls)
     scene.corners[: len(corners)] = corners
     scene.heights[: len(corners)] = [(-0.02, 0.0), (robot.ground_clearance, target.z_min), *tall]
     scene.colors[: len(corners)] = colors
@@ -174,12 +182,10 @@ def tables(config: EnvConfig, room: Room, gain: float, temperature: float) -> Ta
     scene.wheels[:] = [(side * 0.5 * robot.track, robot.wheel_radius, robot.wheel_width) for side in (1, -1)]
     scene.casters[:] = [(side * caster, 0.0, CASTER_RADIUS + CASTER_GAP, CASTER_RADIUS) for side in (1, -1)]
     scene.wheel_color[:] = robot.wheel_color
-    posts = [(0.0, 0.0, POST_RADIUS, config.lrf.height)]
-    own = max(z - 0.03, 0.01)
-    if (z - own) / POST_RADIUS < 0.5 * camera.height / focal:  # else it is below the picture
-        posts.append((x, y, POST_RADIUS, own))
-    scene.posts[: len(posts)], scene.post_count = posts, len(posts)
-    scene.post_color[:] = STATION_COLOR
+    pillars = _pillars(config, focal)
+    scene.pillar_count = len(pillars)
+    for i, (pillar, color) in enumerate(pillars):
+        scene.pillars[i], scene.pillar_colors[i] = pillar, color
     scene.ambient[:] = light.ambient * tint
     scene.lamp_count = len(light.lamps)
     for i, lamp in enumerate(light.lamps):
@@ -192,12 +198,27 @@ def tables(config: EnvConfig, room: Room, gain: float, temperature: float) -> Ta
     return cast(Tables, scene)
 
 
+def _pillars(config: EnvConfig, focal: float) -> list[tuple[tuple[float, float, float, float], Color]]:
+    """Upright cylinders on the floor: x, y, radius, upper end [m], and RGB."""
+    camera = config.camera
+    found = [((0.0, 0.0, POST_RADIUS, config.lrf.height), STATION_COLOR)]
+    x, y, z = camera.position
+    own = max(z - 0.03, 0.01)
+    if (z - own) / POST_RADIUS < 0.5 * camera.height / focal:  # else it is below the picture
+        found.append(((x, y, POST_RADIUS, own), STATION_COLOR))
+    for o in config.room.obstacles:
+        if o.shape == "cylinder":
+            found.append(((*o.position, o.radius, o.height), o.color))
+    return found
+
+
 def _check(config: EnvConfig, room: Room) -> None:
     """Refuse what cannot be drawn."""
     for key, count, most in (
         ("room.vertices", len(room.vertices), MOST_WALLS),
         ("target.marker_angles_deg", len(config.target.marker_angles_deg), MOST_MARKERS),
         ("light.lamps", len(config.light.lamps), MOST_LAMPS),
+        ("room.obstacles", len(config.room.obstacles), MOST_OBSTACLES),
     ):
         if count > most:
             raise ConfigError(

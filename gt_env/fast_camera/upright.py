@@ -63,7 +63,21 @@ def prism(
         if casts:
             cut = min(
                 cut,
-                level_shadow(scene, placed, bands, q, casts, high, ka, kb, first_a, first_b, last_a, last_b),
+                level_shadow(
+                    scene,
+                    placed,
+                    bands,
+                    scene.colors[q],
+                    placed.facing[q, 4],
+                    casts,
+                    high,
+                    ka,
+                    kb,
+                    first_a,
+                    first_b,
+                    last_a,
+                    last_b,
+                ),
             )
     if eye < low:
         back_a, back_b = row_of(scene, low, last_a), row_of(scene, low, last_b)
@@ -126,6 +140,27 @@ def tube(
         back_a, back_b = _bowed(scene, high, last_a, last, last_b)
         rgb = shade(scene, placed.lamp, albedo, 0.0, 0.0, 1.0)
         cut = min(cut, paint(bands, back_a, back_b, top_a, top_b, rgb))
+        if scene.shadow and casts & BY_TARGET:  # nothing stands above the target itself
+            for n in range(scene.lamp_count):
+                placed.cosines[n] = max(placed.lamp[n, 2], 0.0)
+            cut = min(
+                cut,
+                level_shadow(
+                    scene,
+                    placed,
+                    bands,
+                    albedo,
+                    placed.cosines,
+                    casts,
+                    high,
+                    ka,
+                    kb,
+                    first_a,
+                    first_b,
+                    last_a,
+                    last_b,
+                ),
+            )
     if scene.eye[2] < low:
         back_a, back_b = _bowed(scene, low, last_a, last, last_b)
         rgb = shade(scene, placed.lamp, albedo, 0.0, 0.0, -1.0)

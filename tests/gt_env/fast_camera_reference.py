@@ -66,6 +66,12 @@ class Tracer:
             shape = box(np.linalg.norm(b - a), room.wall_thickness, room.wall_height)
             place = np.array([*middle, 0.5 * room.wall_height])
             self.add(room.wall_color, shape, place, rotation(math.atan2(d[1], d[0])), 100.0)
+        for o in room.obstacles:
+            place = np.array([*o.position, 0.5 * o.height])
+            if o.shape == "box":
+                self.add(o.color, box(*o.size), place, rotation(math.radians(o.yaw_deg)), 100.0)
+            else:
+                self.add(o.color, upright(o.radius, o.height), place, np.eye(3), 100.0)
         low, high = corners.min(axis=0), corners.max(axis=0)
         size = high - low + 2.0
         place = np.array([*(0.5 * (low + high)), -0.01])
