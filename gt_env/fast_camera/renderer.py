@@ -31,16 +31,17 @@ Instant = tuple[float, float, float, float]
 class FastRenderer:
     """Renders what the station's camera sees, every pixel averaged over its area.
 
-    Floor, walls, the sensors' posts, the robot's body, wheels, casters, target and markers are where
-    `scene` and `robot_model` put them. Pixel (row i, column j) covers [j, j + 1] x [i, i + 1]; the
-    principal point is the picture's middle; the focal length is height / (2 tan(fov / 2)) in both
-    directions. `tiny` takes one sample a pixel, half a pixel off this convention.
+    Floor, walls, boxes and cylinders, the sensors' posts, the robot's body, wheels, casters, target and markers
+    are where `scene` and `robot_model` put them; of two obstacles that stick into each other the one that begins
+    nearer is in front. Pixel (row i, column j) covers [j, j + 1] x [i, i + 1]; the principal point is the
+    picture's middle; the focal length is height / (2 tan(fov / 2)) in both directions. `tiny` takes one sample a
+    pixel, half a pixel off this convention.
 
     Surfaces are Lambertian: colour x (ambient + sum of lamps x cosine), at most 255. A lamp shines from the
     same direction everywhere, the one at the middle of the target, as in `tiny`; round things have their
     true normals, where `tiny` has a hull's. With `light.shadow`, target and body take all of a lamp's light
-    away from what they hide from it (`tiny` leaves some, and shades the surfaces themselves); wheels and
-    casters cast none, markers receive none. Nothing is cut off at the far plane.
+    away from what they hide from it (`tiny` leaves some, and shades the surfaces themselves); wheels,
+    casters and obstacles cast none, markers receive none. Nothing is cut off at the far plane.
 
     With numba (extra `fast`) this is machine code, compiled once, which takes some twenty seconds, and kept on
     disk. Without it numpy draws nearly the same, some twenty times slower; shadows then run as plain Python, a

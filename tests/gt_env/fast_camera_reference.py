@@ -1,11 +1,18 @@
 """A ray tracer of the scene by brute force, written from the URDF's and the scene's description alone."""
 
+import importlib.util
 import math
 
 import numpy as np
+import pytest
 
 from gt_env.config import EnvConfig
+from gt_env.fast_camera.renderer import FastRenderer
+from gt_env.sensors.rendering import Instant
 
+NUMBA = importlib.util.find_spec("numba") is not None
+needs_numba = pytest.mark.skipif(not NUMBA, reason="the exact kernel needs numba (extra fast)")
+EYE = (0.0, 0.10)
 CASTER_RADIUS, CASTER_GAP, MARKER_DEPTH = 0.012, 5e-5, 0.02
 
 
@@ -217,3 +224,46 @@ def ball(radius):
         return t, normal
 
     return hit
+
+
+def at(distance, bearing_deg, yaw, off=0.0):
+    """The robot at a distance [m] and bearing [deg] from the camera, which looks past it by `off` [rad]."""
+    bearing = math.radians(bearing_deg)
+    return Instant(
+        EYE[0] + distance * math.cos(bearing), EYE[1] + distance * math.sin(bearing), yaw, bearing + off
+    )
+
+
+def focal(config):
+    return 0.5 * config.camera.height / math.tan(math.radians(0.5 * config.camera.fov_deg))
+
+
+def errors(config, instant, samples=64):
+    """Differences (rows, columns, 3) to the supersampled reference in a window around the robot."""
+    picture = FastRenderer(config).picture([instant])
+    height, width = picture.shape[:2]
+    distance = math.hypot(instant.x - EYE[0], instant.y - EYE[1])
+    scale = focal(config) / (distance - 0.15)
+    bearing = math.atan2(instant.y - EYE[1], instant.x - EYE[0]) - instant.pan
+    middle = 0.5 * width - focal(config) * math.tan(bearing)
+    left, right = max(int(middle - 0.15 * scale) - 2, 0), min(int(middle + 0.15 * scale) + 3, width)
+    top, low = max(int(0.5 * height - 0.1 * scale) - 2, 0), min(int(0.5 * height + 0.17 * scale) + 3, height)
+    reference = Tracer(config, *instant).window(left, top, right - left, low - top, samples)
+    return np.abs(picture[top:low, left:right] - reference)
+
+
+def pixels(config, instant):
+    """The picture and the colours in the middle of its pixels, both (rows, columns, 3)."""
+    picture = FastRenderer(config).picture([instant]).astype(float)
+    v, u = np.mgrid[0 : picture.shape[0], 0 : picture.shape[1]] + 0.5
+    return picture, Tracer(config, *instant).colors(u.ravel(), v.ravel()).reshape(picture.shape)
+
+
+def share_wrong(picture, reference):
+    """Share of the pixels that differ by more than 4 grey levels, of those without a border in them."""
+    flat = np.ones(picture.shape[:2], bool)  # pixels whose neighbours are alike
+    for axis in (0, 1):
+        for shift in (1, -1):
+            flat &= np.abs(np.roll(reference, shift, axis) - reference).max(axis=2) < 4
+    assert flat.mean() > 0.85
+    return ((np.abs(picture - reference).max(axis=2) > 4) & flat).mean()
