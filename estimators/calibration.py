@@ -48,6 +48,7 @@ class CameraCalibration:
         center_px: Principal point u, v [px], where pixel (0, 0) has its middle at (0, 0); None for the middle
             of the image, ((width - 1) / 2, (height - 1) / 2). A renderer that samples pixels at their corners
             has its own.
+        clock_offset: How much later its clock stamps a frame than the LRF's clock would [s].
     """
 
     position: tuple[float, float, float] = (0.0, 0.10, 0.165)
@@ -58,6 +59,7 @@ class CameraCalibration:
     distortion: tuple[float, ...] = ()
     roll: float = 0.0
     center_px: tuple[float, float] | None = None
+    clock_offset: float = 0.0
 
     @property
     def focal(self) -> float:

@@ -95,7 +95,8 @@ class World:
         for key, sensor in self.onboard.sensors.items():
             parts[key] = sensor.space()
         sensors = 1 + c.lrf.enabled + c.camera.enabled + len(self.onboard.sensors)
-        parts["stamps"] = spaces.Box(0.0, np.finfo(np.float64).max, (sensors,), np.float64)
+        first = min(0.0, c.camera.clock_offset)  # a clock that is behind stamps the first frame before zero
+        parts["stamps"] = spaces.Box(first, np.finfo(np.float64).max, (sensors,), np.float64)
         return parts
 
     def reset(self, pose: Pose2, rng: np.random.Generator) -> None:

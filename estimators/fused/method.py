@@ -10,6 +10,7 @@ from typing import Final, Literal
 import numpy as np
 
 from estimators.calibration import Calibration
+from estimators.clock import on_lrf_clock
 from estimators.fused.motion import Holonomic, MotionModel, Unicycle
 from estimators.fused.readings import MarkerReading, PositionReading
 from estimators.fused.track import Track
@@ -74,6 +75,7 @@ class FusedEstimator:
         self._markers = MarkerFit(calibration) if camera else None
         self._mount = calibration.target.mount
         self._lrf = calibration.lrf.pose
+        self._camera = calibration.camera
         self._model: MotionModel = Unicycle() if motion == "unicycle" else Holonomic()
         self.reset()
 
@@ -89,6 +91,7 @@ class FusedEstimator:
 
     def update(self, message: Message) -> PoseEstimate | None:
         """Take a scan or a frame; other messages are ignored."""
+        message = on_lrf_clock(message, self._camera)
         if self._comes_again(message) or self._too_old(message.stamp):
             return None
         match message:

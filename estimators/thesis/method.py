@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from estimators.calibration import DEG, Calibration
+from estimators.clock import on_lrf_clock
 from estimators.messages import ImageFrame, LaserScan, Message, PoseEstimate, TargetSighting
 from estimators.poses import Pose2
 from estimators.thesis.heading import heading, heading_in_image
@@ -48,6 +49,7 @@ class ThesisEstimator:
 
     def update(self, message: Message) -> PoseEstimate | None:
         """Take a scan, a frame or a sighting; other messages are ignored."""
+        message = on_lrf_clock(message, self._camera)
         match message:
             case LaserScan():
                 self._localizer.observe(message)

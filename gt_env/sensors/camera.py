@@ -40,7 +40,7 @@ class Camera:
         """Take one frame.
 
         Args:
-            stamp: End of the exposure [s]; the frame is stamped at its middle.
+            stamp: End of the exposure [s]; the frame is stamped at its middle, by the camera's own clock.
             picture: Makes the picture without noise.
             encoder: What the pan unit's encoder says [rad].
         """
@@ -48,7 +48,8 @@ class Camera:
             # The noise is that of the frame, whether and whenever it is looked at.
             picture = partial(_noisy, picture, self._config.noise_levels, int(self._rng.integers(1 << 63)))
         middle = stamp - 0.5 * self._config.exposure_time if stamp > 0 else stamp
-        self._frame = ImageFrame(stamp=middle, source=STATION_CAMERA, rgb=picture, pan=encoder)
+        stamped = middle + self._config.clock_offset
+        self._frame = ImageFrame(stamp=stamped, source=STATION_CAMERA, rgb=picture, pan=encoder)
         return self._frame
 
     @property

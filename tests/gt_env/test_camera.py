@@ -186,3 +186,15 @@ def test_any_resolution(make, width, height):
     env = make({"camera": {"width": width, "height": height}})
 
     assert env.reset(seed=0)[0]["image"].shape == (height, width, 3)
+
+
+@pytest.mark.parametrize("offset", [0.015, -0.02])
+def test_a_camera_with_a_clock_of_its_own_stamps_by_it(make, offset):
+    env = make({"camera": {"clock_offset": offset}})
+    obs, _ = env.reset(seed=0)
+    assert env.observation_space.contains(obs)
+    assert obs["stamps"][1] == pytest.approx(offset)
+    env.step(np.zeros(2))
+    frames = [m.stamp for m in env.unwrapped.measurements if m.source == "station/camera"]
+    assert frames == pytest.approx([offset + i / 30 for i in (1, 2, 3)])
+    assert env.unwrapped.believed_calibration.camera.clock_offset == offset

@@ -81,6 +81,7 @@ class CameraConfig:
         noise_levels: Standard deviation of pixel noise [grey levels].
         exposure_time: Over which a frame is averaged [s]; it is stamped at the middle. Needs `fast`.
         gain: On all channels. Needs `fast`.
+        clock_offset: How much later its clock stamps a frame than the LRF's clock would [s].
     """
 
     enabled: Flag = True
@@ -97,6 +98,7 @@ class CameraConfig:
     noise_levels: NotNegative = 0.0
     exposure_time: NotNegative = 0.0
     gain: Positive = 1.0
+    clock_offset: Real = 0.0
 
     def calibration(self, pan: PanConfig) -> CameraCalibration:
         """As an estimator knows it, on its pan unit."""
@@ -108,6 +110,7 @@ class CameraConfig:
             height=self.height,
             roll=self.roll_deg * DEG,
             center_px=self._center_px(),
+            clock_offset=self.clock_offset,
         )
 
     def _center_px(self) -> tuple[float, float] | None:
