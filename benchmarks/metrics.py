@@ -12,6 +12,8 @@ from benchmarks.rollout import Track
 from estimators.calibration import DEG
 from estimators.poses import Array, wrap_angle
 
+STARTED = 2.0
+"""Time after which a station that knew nothing should know where the robot is [s]."""
 MODE_BINS = (0.001, 0.001, 0.01 * DEG)
 """Width of the bins that the most frequent value is taken from [m, m, rad]: as table 5.2 is printed."""
 
@@ -42,7 +44,9 @@ class Score:
         largest: Largest absolute error of x, y, yaw [m, m, rad].
         rmse_xy: Root mean square of the distance to the truth [m].
         max_xy: Largest distance to the truth [m].
+        p99_yaw: 99 % of the absolute errors of the yaw are smaller [rad].
         nees: Mean normalised estimation error squared over x, y, yaw; 3 for an honest covariance.
+        valid_later: Share of the samples from `STARTED` on with a valid position.
     """
 
     n: int
@@ -51,7 +55,9 @@ class Score:
     largest: tuple[float | None, ...]
     rmse_xy: float | None
     max_xy: float | None
+    p99_yaw: float | None
     nees: float | None
+    valid_later: float | None = None
 
 
 def errors(track: Track) -> Array:
@@ -63,9 +69,15 @@ def errors(track: Track) -> Array:
     return difference
 
 
-def score(track: Track) -> Score:
-    """Score a track against the truth."""
+def score(track: Track, t: Array | None = None) -> Score:
+    """Score a track against the truth.
+
+    Args:
+        track: What was said.
+        t: (N,) when, after the start [s]; for `valid_later`.
+    """
     error = errors(track)
+    later = track.valid[t >= STARTED] if t is not None else np.empty(0)
     columns = [column[~np.isnan(column)] for column in error.T]
     distance = np.hypot(columns[0], columns[1])
     return Score(
@@ -75,7 +87,9 @@ def score(track: Track) -> Score:
         largest=tuple(float(np.abs(c).max()) if c.size else None for c in columns),
         rmse_xy=float(np.sqrt(np.mean(distance**2))) if distance.size else None,
         max_xy=float(distance.max()) if distance.size else None,
+        p99_yaw=float(np.quantile(np.abs(columns[2]), 0.99)) if columns[2].size else None,
         nees=nees(error, track.covariance) if track.states_covariance else None,
+        valid_later=float(later.mean()) if later.size else None,
     )
 
 
@@ -108,12 +122,16 @@ def circular_mean(angles: Array) -> float | None:
 
 
 def nees(error: Array, covariance: Array) -> float | None:
-    """Mean of e' P^-1 e over the samples whose three errors (N, 3) are all there; covariance (N, 3, 3)."""
-    whole = ~np.isnan(error).any(axis=1)
-    if not whole.any():
-        return None
-    e = error[whole]
-    return float(np.mean(np.sum(e * np.linalg.solve(covariance[whole], e[..., None])[..., 0], axis=1)))
+    """Mean of e' P^-1 e over the samples whose errors (N, k) are all there; covariance (N, k, k)."""
+    squares = normalized_squares(error, covariance)
+    there = squares[~np.isnan(squares)]
+    return float(there.mean()) if there.size else None
+
+
+def normalized_squares(error: Array, covariance: Array) -> Array:
+    """Squares e' P^-1 e (N,) of errors (N, k) with covariances (N, k, k); NaN where one of the errors is."""
+    squares: Array = np.sum(error * np.linalg.solve(covariance, error[..., None])[..., 0], axis=1)
+    return squares
 
 
 def average(values: Sequence[float | None]) -> float | None:

@@ -3,15 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.hindsight import (
+    HINDSIGHT,
+    Innovations,
+    estimates_at,
+    innovations,
+    keeping,
+    looked_back_on,
+    online,
+)
+from estimators.fused import FusedEstimator
 from estimators.poses import Array, Pose2, wrap_angle
-from estimators.wrappers import GroundTruthWrapper
+from estimators.wrappers import GroundTruthWrapper, estimate_info
 from gt_env.config import EnvConfig
 
 ARENA = "gt_env:gt_env/Arena-v0"
@@ -52,24 +62,27 @@ class Rollout:
         t: (N,) [s].
         true_pose: (N, 3) [m, m, rad].
         tracks: By method.
+        innovations: Of the online methods that kept them, from the start of the episode on.
     """
 
     t: Array
     true_pose: Array
     tracks: dict[str, Track]
+    innovations: dict[str, Innovations] = field(default_factory=dict)
 
 
 def joined(rollouts: Sequence[Rollout]) -> Rollout:
-    """Runs of the same methods, one after the other, as one."""
+    """Runs of the same methods, one after the other, as one; without their innovations."""
     first = rollouts[0]
     return Rollout(
         t=np.concatenate([r.t for r in rollouts]),
         true_pose=np.concatenate([r.true_pose for r in rollouts]),
-        tracks={name: _joined_tracks([r.tracks[name] for r in rollouts]) for name in first.tracks},
+        tracks={name: joined_tracks([r.tracks[name] for r in rollouts]) for name in first.tracks},
     )
 
 
-def _joined_tracks(tracks: Sequence[Track]) -> Track:
+def joined_tracks(tracks: Sequence[Track]) -> Track:
+    """Tracks of one method, one after the other, as one."""
     return Track(
         **{
             f.name: np.concatenate([getattr(t, f.name) for t in tracks])
@@ -81,11 +94,27 @@ def _joined_tracks(tracks: Sequence[Track]) -> Track:
 
 
 def watched_arena(config: EnvConfig, methods: Sequence[str]) -> gym.Env[Any, Any]:
-    """The arena with one ground-truth wrapper per method, under the method's name in `info`."""
+    """The arena with one ground-truth wrapper per method, under the method's name in `info`.
+
+    Instead of a method that looks back there is the one that it looks back on.
+
+    Raises:
+        ConfigError: If there is no such method.
+    """
+    watching, kept = online(methods), looked_back_on(methods)
     env: gym.Env[Any, Any] = gym.make(ARENA, config=config, disable_env_checker=True)
-    for method in methods:
+    base: Any = env.unwrapped
+    for method in watching:
         env = GroundTruthWrapper(env, method=method, name=method)
+        if method in kept:
+            env.estimator = keeping(method, base.believed_calibration)
     return env
+
+
+def picked(track: Track, which: NDArray[np.bool_] | NDArray[np.intp] | slice) -> Track:
+    """Some samples of a track."""
+    chosen = {f.name: getattr(track, f.name)[which] for f in fields(Track) if f.name != "states_covariance"}
+    return Track(**chosen, states_covariance=track.states_covariance)
 
 
 def rollout(
@@ -95,6 +124,7 @@ def rollout(
     seed: int,
     pose: Pose2 | None = None,
     settle: int = 0,
+    methods: Sequence[str] | None = None,
     on_step: Callable[[], None] | None = None,
 ) -> Rollout:
     """Drive an arena and write down truth and estimates after every step.
@@ -105,9 +135,10 @@ def rollout(
         seed: Of the episode.
         pose: Where it starts; None for where the configuration says.
         settle: Steps of standing still before the first action; they are simulated, not returned.
+        methods: Whose tracks are returned; None for all that watch online.
         on_step: Called after every step, those of settling too.
     """
-    methods = _wrappers(env)
+    wrappers = _wrappers(env)
     base: Any = env.unwrapped
     _, info = env.reset(seed=seed, options=None if pose is None else {"pose": tuple(pose)})
     infos, ticks = [info], [np.array(base.truth)]
@@ -118,10 +149,25 @@ def rollout(
         if on_step is not None:
             on_step()
     kept, truth = infos[1 + settle :], np.concatenate(ticks)
+    t = np.array([i["t"] for i in kept])
+    tracks = {}
+    for method in wrappers if methods is None else methods:
+        wrapper = wrappers[HINDSIGHT.get(method, method)]
+        if method in HINDSIGHT:
+            assert isinstance(wrapper.estimator, FusedEstimator)
+            said = [estimate_info(e) for e in estimates_at(wrapper.estimator, t, base.config.timing.step)]
+        else:
+            said = [info[method] for info in kept]
+        tracks[method] = _track(said, getattr(wrapper.estimator, "states_covariance", True), truth)
     return Rollout(
-        t=np.array([i["t"] for i in kept]),
+        t=t,
         true_pose=np.array([i["true_pose"] for i in kept]),
-        tracks={name: _track(wrapper, kept, truth) for name, wrapper in methods.items()},
+        tracks=tracks,
+        innovations={
+            name: innovations(wrapper.estimator)
+            for name, wrapper in wrappers.items()
+            if name in looked_back_on(methods or ()) and isinstance(wrapper.estimator, FusedEstimator)
+        },
     )
 
 
@@ -136,8 +182,7 @@ def pose_at(stamps: Array, t: Array, poses: Array) -> Array:
     return between
 
 
-def _track(wrapper: GroundTruthWrapper, infos: list[dict[str, Any]], truth: Array) -> Track:
-    said = [info[wrapper.name] for info in infos]
+def _track(said: list[dict[str, Any]], states_covariance: bool, truth: Array) -> Track:
     stamp = np.array([s["stamp"] for s in said])
     return Track(
         stamp=stamp,
@@ -146,7 +191,7 @@ def _track(wrapper: GroundTruthWrapper, infos: list[dict[str, Any]], truth: Arra
         covariance=np.array([s["covariance"] for s in said]),
         valid=np.array([s["valid"] for s in said], dtype=bool),
         yaw_valid=np.array([s["yaw_valid"] for s in said], dtype=bool),
-        states_covariance=getattr(wrapper.estimator, "states_covariance", True),
+        states_covariance=states_covariance,
     )
 
 

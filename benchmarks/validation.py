@@ -1,24 +1,71 @@
-"""The thesis's validation (chapter 5) as one piece of work: plan it, simulate it, score it."""
+"""The thesis's validation (chapter 5) and what goes beyond it, as one piece of work: plan it, simulate it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 
 import numpy as np
 from rich.console import Console
 
 from benchmarks.driving import DRIVES
 from benchmarks.engines import Engine
-from benchmarks.experiments.moving import moving_runs
+from benchmarks.experiments.moving import FURTHER, moving_runs
+from benchmarks.experiments.random_poses import dithered, drive_runs, rest_runs
 from benchmarks.experiments.run import Run, simulate
+from benchmarks.experiments.scans import ScanFixes, ScanRun, measure_scans, scan_runs
 from benchmarks.experiments.static import static_runs
+from benchmarks.experiments.stress import stress_runs
 from benchmarks.parallel import SweepError, run_side_by_side
 from benchmarks.published import SAMPLES
 from benchmarks.rollout import Rollout, joined
 from gt_env.config import EnvConfig
 
-QUICK_SAMPLES = 50
-"""Samples per test point of a quick validation."""
+STILL, DITHERED = "still", "dithered"
+"""Robots at rest before a camera at rest, and before one that sweeps a little."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Effort:
+    """How much is simulated.
+
+    Attributes:
+        samples: Per test point.
+        single_scans: Per test point, each of a target placed anew.
+        joint_scans: Groups of scans per test point.
+        at_rest: Robots at random poses before a camera at rest.
+        at_rest_dithered: Likewise before one that sweeps.
+        driving: Robots that drive about at random.
+        longest_drive: Time after which the drives are broken off [s]; None for never.
+    """
+
+    samples: int
+    single_scans: int
+    joint_scans: int
+    at_rest: int
+    at_rest_dithered: int
+    driving: int
+    longest_drive: float | None
+
+
+FULL = Effort(
+    samples=SAMPLES,
+    single_scans=4000,
+    joint_scans=30,
+    at_rest=50,
+    at_rest_dithered=25,
+    driving=50,
+    longest_drive=None,
+)
+QUICK = Effort(
+    samples=50,
+    single_scans=100,
+    joint_scans=2,
+    at_rest=4,
+    at_rest_dithered=2,
+    driving=4,
+    longest_drive=10.0,
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,48 +76,79 @@ class Plan:
         config: Of the room.
         methods: Who watches, side by side on the same measurements.
         seed: Of everything.
-        samples: Per test point.
+        effort: How much.
         static: Runs by test point, one per placement.
         moving: Runs by drive.
+        scans: Single scans by test point; empty if there is nothing to compare with.
+        rest: Robots at random poses, `STILL` and perhaps `DITHERED`.
+        driving: Robots that drive about at random.
+        stress: Harder drives by what is hard; empty unless asked for.
     """
 
     config: EnvConfig
     methods: tuple[str, ...]
     seed: int
-    samples: int
+    effort: Effort
     static: dict[str, tuple[Run, ...]]
     moving: dict[str, Run]
+    scans: dict[str, ScanRun]
+    rest: dict[str, tuple[Run, ...]]
+    driving: tuple[Run, ...]
+    stress: dict[str, tuple[Run, ...]] = field(default_factory=dict)
+
+    @property
+    def samples(self) -> int:
+        """Per test point."""
+        return self.effort.samples
 
 
 @dataclass(frozen=True, kw_only=True)
 class Validation:
-    """What came out: the plan, one rollout per test point and drive, and what failed.
+    """What came out: the plan, what was simulated, and what failed.
 
-    A test point or drive of which a run failed is left out. The samples of a test point follow one another,
-    placement by placement.
+    Whatever lacks a run is left out. The samples of a test point follow one another, placement by placement.
     """
 
     plan: Plan
     static: dict[str, Rollout]
     moving: dict[str, Rollout]
+    scans: dict[str, ScanFixes] = field(default_factory=dict)
+    rest: dict[str, tuple[Rollout, ...]] = field(default_factory=dict)
+    driving: tuple[Rollout, ...] = ()
+    stress: dict[str, tuple[Rollout, ...]] = field(default_factory=dict)
     failed: SweepError | None = None
 
 
-def plan_validation(config: EnvConfig, methods: tuple[str, ...], *, seed: int, quick: bool) -> Plan:
+def plan_validation(
+    config: EnvConfig, methods: tuple[str, ...], *, seed: int, quick: bool, stress: bool = False
+) -> Plan:
     """Lay out all runs, each with a seed of its own.
 
     Raises:
         ConfigError: If a test point or a drive does not fit into the room.
     """
-    samples = QUICK_SAMPLES if quick else SAMPLES
-    for_static, for_moving = np.random.SeedSequence(seed).spawn(2)
+    effort = QUICK if quick else FULL
+    seeds = np.random.SeedSequence(seed).spawn(8)
+    for_static, for_moving, for_further, for_scans, for_rest, for_dithered, for_driving, for_stress = seeds
+    swept = dithered(config)
     return Plan(
         config=config,
         methods=methods,
         seed=seed,
-        samples=samples,
-        static=static_runs(config, methods, samples, for_static),
-        moving=moving_runs(config, methods, for_moving.generate_state(len(DRIVES)).tolist()),
+        effort=effort,
+        static=static_runs(config, methods, effort.samples, for_static),
+        moving=moving_runs(
+            config,
+            methods,
+            for_moving.generate_state(len(DRIVES)).tolist(),
+            for_further.generate_state(len(FURTHER)).tolist(),
+            effort.longest_drive,
+        ),
+        scans=scan_runs(config, effort.single_scans, effort.joint_scans, for_scans),
+        rest={STILL: rest_runs(config, methods, effort.at_rest, for_rest)}
+        | ({DITHERED: rest_runs(swept, methods, effort.at_rest_dithered, for_dithered)} if swept else {}),
+        driving=drive_runs(config, methods, effort.driving, for_driving),
+        stress=stress_runs(config, methods, for_stress) if stress else {},
     )
 
 
@@ -81,32 +159,65 @@ def run_validation(plan: Plan, *, jobs: int, console: Console, engine: Engine | 
         ClusterError: If the engine's cluster does not answer.
         SweepError: If too much failed for a report.
     """
-    placements = {f"static {p}": runs for p, runs in plan.static.items()}
-    names = [f"{name}, placement {i + 1}" for name, runs in placements.items() for i in range(len(runs))]
-    names += [f"moving {drive}" for drive in plan.moving]
-    runs = [*(run for runs in plan.static.values() for run in runs), *plan.moving.values()]
+    tasks = _tasks(plan)
     failed = None
-    rollouts: list[Rollout | None]
+    results: list[Rollout | ScanFixes | None]
     try:
-        rollouts = [
+        results = [
             *run_side_by_side(
-                simulate,
-                runs,
-                [run.steps for run in runs],
+                _carry_out,
+                list(tasks.values()),
+                [task.steps for task in tasks.values()],
                 jobs=jobs,
                 label="simulating",
                 console=console,
-                names=names,
+                names=list(tasks),
                 engine=engine,
             )
         ]
     except SweepError as error:
-        rollouts, failed = error.results, error
-    left = iter(rollouts)
-    static = {point: [next(left) for _ in runs] for point, runs in plan.static.items()}
-    moving = {drive: next(left) for drive in plan.moving}
-    complete = {p: joined([r for r in of if r is not None]) for p, of in static.items() if None not in of}
-    driven = {drive: rollout for drive, rollout in moving.items() if rollout is not None}
-    if failed is not None and not (complete and driven):
+        results, failed = error.results, error
+    rollouts = {n: r for n, r in zip(tasks, results, strict=True) if isinstance(r, Rollout)}
+    fixes = {n: r for n, r in zip(tasks, results, strict=True) if isinstance(r, ScanFixes)}
+
+    def complete(name: str, runs: tuple[Run, ...]) -> tuple[Rollout, ...]:
+        of = [rollouts[n] for i in range(len(runs)) if (n := _numbered(name, i)) in rollouts]
+        return tuple(of) if len(of) == len(runs) else ()
+
+    static = {p: complete(f"static {p}", runs) for p, runs in plan.static.items()}
+    validation = Validation(
+        plan=plan,
+        static={p: joined(of) for p, of in static.items() if of},
+        moving={d: rollouts[f"moving {d}"] for d in plan.moving if f"moving {d}" in rollouts},
+        scans={p: fixes[f"scans {p}"] for p in plan.scans if f"scans {p}" in fixes},
+        rest={k: of for k, runs in plan.rest.items() if (of := complete(f"at rest, {k}", runs))},
+        driving=complete("driving", plan.driving),
+        stress={k: of for k, runs in plan.stress.items() if (of := complete(f"stress, {k}", runs))},
+        failed=failed,
+    )
+    if failed is not None and not (validation.static and validation.moving):
         raise failed
-    return Validation(plan=plan, static=complete, moving=driven, failed=failed)
+    return validation
+
+
+def _tasks(plan: Plan) -> dict[str, Run | ScanRun]:
+    """Every task by its name."""
+    groups = {
+        **{f"static {p}": runs for p, runs in plan.static.items()},
+        **{f"at rest, {kind}": runs for kind, runs in plan.rest.items()},
+        "driving": plan.driving,
+        **{f"stress, {kind}": runs for kind, runs in plan.stress.items()},
+    }
+    return {
+        **{_numbered(name, i): run for name, runs in groups.items() for i, run in enumerate(runs)},
+        **{f"moving {drive}": run for drive, run in plan.moving.items()},
+        **{f"scans {p}": run for p, run in plan.scans.items()},
+    }
+
+
+def _numbered(name: str, i: int) -> str:
+    return f"{name}, run {i + 1}"
+
+
+def _carry_out(task: Run | ScanRun, on_step: Callable[[], None] | None = None) -> Rollout | ScanFixes:
+    return measure_scans(task, on_step) if isinstance(task, ScanRun) else simulate(task, on_step)

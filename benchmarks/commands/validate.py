@@ -22,20 +22,26 @@ from benchmarks.commands.options import (
     require_report_extra,
 )
 from benchmarks.engines import Engine
+from benchmarks.hindsight import WATCHED
 from benchmarks.output import check_writable, staged
 from estimators.errors import ConfigError
-from estimators.protocol import METHODS
 
 MethodOption = Annotated[
     list[str] | None,
     typer.Option(
-        "--method", metavar="NAME", help=f"A ground-truth method ({', '.join(METHODS)}); repeatable."
+        "--method", metavar="NAME", help=f"A ground-truth method ({', '.join(WATCHED)}); repeatable."
     ),
 ]
 CamerasOption = Annotated[
     bool,
     typer.Option("--cameras", help="Also put renderers, lenses, resolutions and shadows side by side."),
 ]
+
+
+StressOption = Annotated[
+    bool, typer.Option("--stress", help="Also swept scans, slipping wheels and high speed.")
+]
+DEFAULT_METHODS = ("thesis", "fused", "smooth")
 
 
 def validate(
@@ -50,13 +56,14 @@ def validate(
     out: OutOption = Path("out/validate"),
     no_figures: NoFiguresOption = False,
     cameras: CamerasOption = False,
+    stress: StressOption = False,
 ) -> None:
-    """Repeat the thesis's validation: seven static points and three drives, beside its published numbers."""
+    """Repeat the thesis's validation beside its published numbers, and go beyond it: limits, honesty, other methods."""
     from benchmarks.cameras import plan_cameras, run_cameras
     from benchmarks.report.cameras import camera_tables
+    from benchmarks.report.every_table import every_table
     from benchmarks.report.scores import score_validation
     from benchmarks.report.setup import describe, validate_command
-    from benchmarks.report.tables import all_tables
     from benchmarks.report.terminal import rich_table
     from benchmarks.report.write import write_numbers, write_page
     from benchmarks.rollout import watched_arena
@@ -67,7 +74,7 @@ def validate(
     if not no_figures:
         require_report_extra()
     check_writable(out)
-    plan = plan_validation(settings, methods, seed=seed, quick=quick)
+    plan = plan_validation(settings, methods, seed=seed, quick=quick, stress=stress)
     camera_plan = plan_cameras(settings, methods, seed=seed, quick=quick) if cameras else None
     watched_arena(settings, methods).close()  # what is wrong with the set-up is said here, not by a worker
     console = Console()
@@ -77,7 +84,9 @@ def validate(
         compared = run_cameras(camera_plan, jobs=jobs, console=console, engine=place)
     failed = validation.failed or (compared.failed if compared else None)
     scores = score_validation(validation)
-    command = validate_command(config, overrides or [], seed, methods, quick=quick, cameras=cameras)
+    command = validate_command(
+        config, overrides or [], seed, methods, quick=quick, cameras=cameras, stress=stress
+    )
     setup = describe(plan, command)
     if failed is not None:
         # What was simulated is kept; the tables and figures want all of it.
@@ -85,7 +94,7 @@ def validate(
         with staged(out) as folder:
             write_numbers(folder, scores, setup, compared)
         raise failed
-    tables = all_tables(scores) + (camera_tables(compared) if compared else [])
+    tables = every_table(scores) + (camera_tables(compared) if compared else [])
     with staged(out) as folder:
         report = write_numbers(folder, scores, setup, compared)
         if not no_figures:
@@ -96,8 +105,8 @@ def validate(
 
 
 def _methods(names: list[str] | None) -> tuple[str, ...]:
-    """What was asked for, each once, in order; without a wish the thesis's own."""
+    """What was asked for, each once, in order; without a wish the thesis's own and the best there are."""
     for name in names or ():
-        if name not in METHODS:
-            raise ConfigError(f"--method {name}: must be one of {', '.join(METHODS)}")
-    return tuple(dict.fromkeys(names or ["thesis"]))
+        if name not in WATCHED:
+            raise ConfigError(f"--method {name}: must be one of {', '.join(WATCHED)}")
+    return tuple(dict.fromkeys(names or DEFAULT_METHODS))

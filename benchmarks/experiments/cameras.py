@@ -175,7 +175,15 @@ def watch(run: Run, on_step: Callable[[], None] | None = None) -> Watched:
     """Carry out a run in a room of its own, and count the frames that show the thesis's rules no heading."""
     env = _FrameCount(watched_arena(run.config, run.methods), run.config)
     try:
-        found = rollout(env, run.actions, seed=run.seed, pose=run.pose, settle=run.settle, on_step=on_step)
+        found = rollout(
+            env,
+            run.actions,
+            seed=run.seed,
+            pose=run.pose,
+            settle=run.settle,
+            methods=run.methods,
+            on_step=on_step,
+        )
         return Watched(rollout=found, frames=env.frames, without_heading=env.without_heading)
     finally:
         env.close()

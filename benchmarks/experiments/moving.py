@@ -1,16 +1,39 @@
-"""The moving experiments (thesis, 5.2): a path with stops, turning on the spot, a tour."""
+"""The moving experiments: the thesis's path with stops, turning on the spot and tour (5.2), and a figure of eight."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from typing import Final
 
-from benchmarks.driving import DRIVES, actions, script, start_pose
+from benchmarks.driving import DRIVES, SPEED, actions, script, start_pose
+from benchmarks.experiments.random_poses import dithered
 from benchmarks.experiments.run import Run
+from benchmarks.paths import ACCELERATION, path_in_room, path_script, path_start
 from gt_env.config import EnvConfig, load_config
 
+EIGHT: Final = "figure-of-eight"
+SWEPT_SPIN: Final = "spin-dithered"
+"""Turning on the spot before a camera that sweeps a little."""
+FURTHER: Final = (EIGHT, SWEPT_SPIN)
+"""Drives that the thesis did not make."""
 
-def moving_runs(config: EnvConfig, methods: tuple[str, ...], seeds: Sequence[int]) -> dict[str, Run]:
-    """One run per scripted drive.
+
+def moving_runs(
+    config: EnvConfig,
+    methods: tuple[str, ...],
+    seeds: Sequence[int],
+    further_seeds: Sequence[int],
+    longest: float | None = None,
+) -> dict[str, Run]:
+    """One run per drive.
+
+    Args:
+        config: Of the room.
+        methods: Who watches.
+        seeds: Of the thesis's drives.
+        further_seeds: Of the others.
+        longest: Time after which every drive is broken off [s].
 
     Raises:
         ConfigError: If the robot would leave the room, or come too near to a wall.
@@ -18,11 +41,35 @@ def moving_runs(config: EnvConfig, methods: tuple[str, ...], seeds: Sequence[int
     runs = {}
     for name, seed in zip(DRIVES, seeds, strict=True):
         sampled = _every_frame(config) if name == "spin" else config
-        commands = actions(script(name, config), config, step=sampled.timing.step)
-        runs[name] = Run(
-            config=sampled, methods=methods, pose=start_pose(name, config), actions=commands, seed=seed
-        )
+        runs[name] = driven(name, sampled, methods, seed)
+    eight, spin = further_seeds
+    runs[EIGHT] = figure_of_eight(config, methods, eight)
+    swept = dithered(config)
+    if swept is not None:
+        runs[SWEPT_SPIN] = driven("spin", _every_frame(swept), methods, spin)
+    if longest is not None:
+        runs = {name: shortened(run, longest) for name, run in runs.items()}
     return runs
+
+
+def driven(name: str, config: EnvConfig, methods: tuple[str, ...], seed: int) -> Run:
+    """One of the thesis's drives."""
+    commands = actions(script(name, config), config, step=config.timing.step)
+    return Run(config=config, methods=methods, pose=start_pose(name, config), actions=commands, seed=seed)
+
+
+def figure_of_eight(config: EnvConfig, methods: tuple[str, ...], seed: int) -> Run:
+    """Once around, at the author's speed."""
+    step = config.timing.step
+    lap = path_in_room(EIGHT, config).length / SPEED + SPEED / ACCELERATION  # coming up to speed and to rest
+    duration = step * round(lap / step)
+    commands = actions(path_script(EIGHT, config, duration=duration), config, step=step)
+    return Run(config=config, methods=methods, pose=path_start(EIGHT, config), actions=commands, seed=seed)
+
+
+def shortened(run: Run, longest: float) -> Run:
+    """The first seconds of a run."""
+    return replace(run, actions=run.actions[: round(longest / run.config.timing.step)])
 
 
 def _every_frame(config: EnvConfig) -> EnvConfig:

@@ -46,6 +46,14 @@ def simulate(run: Run, on_step: Callable[[], None] | None = None) -> Rollout:
     """Carry out a run in a room of its own."""
     env = watched_arena(run.config, run.methods)
     try:
-        return rollout(env, run.actions, seed=run.seed, pose=run.pose, settle=run.settle, on_step=on_step)
+        return rollout(
+            env,
+            run.actions,
+            seed=run.seed,
+            pose=run.pose,
+            settle=run.settle,
+            methods=run.methods,
+            on_step=on_step,
+        )
     finally:
         env.close()

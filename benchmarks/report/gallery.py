@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
 from functools import partial
-
-from matplotlib.figure import Figure
 
 from benchmarks.experiments.scenes import Scene
 from benchmarks.experiments.static import PLACEMENTS, static_points
@@ -16,27 +13,10 @@ from benchmarks.figures.frame import frame_figure
 from benchmarks.figures.histograms import histogram_figure
 from benchmarks.figures.scans import array_figure, points_figure, scan_figure
 from benchmarks.published import THESIS
+from benchmarks.report.further_gallery import further_plates
+from benchmarks.report.plates import Plate
 from benchmarks.report.scores import Scores
 from benchmarks.validation import Validation
-
-
-@dataclass(frozen=True, kw_only=True)
-class Plate:
-    """One figure of the report.
-
-    Attributes:
-        name: Of its file, without the ending.
-        section: Of the page that it belongs to.
-        repeats: Figure of the thesis that it repeats, or "" if there is none.
-        caption: What is to be seen.
-        draw: Makes it.
-    """
-
-    name: str
-    section: str
-    repeats: str
-    caption: str
-    draw: Callable[[], Figure]
 
 
 def plates(validation: Validation, scores: Scores, scenes: dict[str, Scene]) -> Iterator[Plate]:
@@ -51,6 +31,7 @@ def plates(validation: Validation, scores: Scores, scenes: dict[str, Scene]) -> 
     yield from _scan_plates(scenes)
     yield from _static_plates(validation)
     yield from _moving_plates(validation)
+    yield from further_plates(validation, scores)
 
 
 def _scan_plates(scenes: dict[str, Scene]) -> Iterator[Plate]:
@@ -137,7 +118,7 @@ def _moving_plates(validation: Validation) -> Iterator[Plate]:
         name="path",
         section="moving",
         repeats="5.9",
-        caption="Real (blue) and estimated (red) way of the robot, which stops at every corner.",
+        caption="Real and estimated way of the robot, which stops at every corner.",
         draw=partial(map_figure, path, room),
     )
     for column, axis, repeats in ((0, "x", "5.10"), (1, "y", "5.11")):
@@ -145,8 +126,8 @@ def _moving_plates(validation: Validation) -> Iterator[Plate]:
             name=f"path-{axis}",
             section="moving",
             repeats=repeats,
-            caption=f"The {axis} coordinate along the path. The moving average lags behind a moving target: "
-            "the error is small at rest and grows with the speed.",
+            caption=f"The {axis} coordinate along the path. The thesis's moving average lags behind a moving "
+            "target: its error is small at rest and grows with the speed.",
             draw=partial(time_figure, path, column),
         )
     yield Plate(

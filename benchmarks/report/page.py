@@ -12,14 +12,17 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from benchmarks.published import thesis_average_mae
-from benchmarks.report.gallery import Plate
+from benchmarks.report.plates import Plate
 from benchmarks.report.scores import MM, TO_ERROR_UNITS, Scores, scaled, times
 from benchmarks.report.tables import NONE, Table
 
 SECTIONS = {
     "station": "What the station measures",
+    "limits": "How much scans can tell",
     "static": "Static target",
     "moving": "Moving target",
+    "consistency": "Does the station know how wrong it is?",
+    "stress": "Harder drives",
     "cameras": "What the camera brings",
 }
 
@@ -44,8 +47,7 @@ def html_page(
     )  # fmt: skip
     pictures = {p.name: base64.b64encode((folder / f"{p.name}.png").read_bytes()).decode() for p in plates}
     return environment.get_template("validate.html.j2").render(
-        facts=_facts(scores),
-        method=scores.methods[0],
+        facts={method: _facts(scores, method) for method in scores.methods},
         tables=tables,
         sections=SECTIONS,
         plates=plates,
@@ -55,9 +57,8 @@ def html_page(
     )
 
 
-def _facts(scores: Scores) -> list[Fact]:
-    """The headline: static errors and the largest moving one, of the first method."""
-    method = scores.methods[0]
+def _facts(scores: Scores, method: str) -> list[Fact]:
+    """The headline: static errors and the largest moving one."""
     x, y, yaw = scaled(scores.static_mae(method), TO_ERROR_UNITS)
     printed = thesis_average_mae() * (MM, MM, 1)
     path = scores.moving[method]["path"].largest[0]

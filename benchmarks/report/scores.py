@@ -2,10 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Final
 
-from benchmarks.metrics import Score, Spread, average, root_mean_square, score, spread
+import numpy as np
+
+from benchmarks.consistency import Consistency, Whiteness, consistency, whiteness
+from benchmarks.experiments.moving import EIGHT
+from benchmarks.experiments.scans import ScanFixes
+from benchmarks.hindsight import HINDSIGHT, KINDS
+from benchmarks.limits import OneScanLimit
+from benchmarks.metrics import (
+    STARTED,
+    Score,
+    Spread,
+    average,
+    root_mean_square,
+    score,
+    spread,
+)
+from benchmarks.rollout import Rollout, joined_tracks, picked
 from benchmarks.validation import Validation
+from estimators.poses import Array
 
 MM, DEGREES = 1e3, 57.29577951308232
 TO_POSE_UNITS = (1.0, 1.0, DEGREES)
@@ -14,15 +33,69 @@ TO_ERROR_UNITS = (MM, MM, DEGREES)
 """From [m, m, rad] to [mm, mm, deg]."""
 
 Triple = tuple[float | None, ...]
+TRAVELS: Final = ("path", "tour", EIGHT)
+"""Drives that go somewhere, which are summed up together."""
+BEFORE_END: Final = 1.0
+"""Samples for the consistency end so long before a run does, so that a method that looks back has something to [s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScanScore:
+    """Of scans alone, around one test point.
+
+    Attributes:
+        limit: Of one scan.
+        axes: (2, 2) unit vectors along and across the line of sight, in rows.
+        spread: (2, 2) mean squares of one scan's errors [m^2].
+        rmse: Root mean square distance to the truth, of one scan [m]; None if a target was not found.
+        nees: Mean over one scan's fixes; 2 for an honest covariance.
+        joint_rmse: Likewise of many scans of a target at rest together [m].
+        joint_nees: Likewise.
+        n: How many single scans.
+        groups: How many groups of scans.
+    """
+
+    limit: OneScanLimit
+    axes: Array
+    spread: Array
+    rmse: float | None
+    nees: float | None
+    joint_rmse: float | None
+    joint_nees: float | None
+    n: int
+    groups: int
+
+    @property
+    def over_limit(self) -> float | None:
+        """Root mean square of one scan over its limit."""
+        return None if self.rmse is None else self.rmse / self.limit.rmse
 
 
 @dataclass(frozen=True, kw_only=True)
 class Scores:
-    """`gt vs true`, by method and then by test point or drive."""
+    """`gt vs true`, by method and then by test point or drive.
+
+    Attributes:
+        static: At the test points.
+        spreads: There as well.
+        moving: By drive.
+        travels: Over all `TRAVELS`.
+        scans: Of scans alone, by test point.
+        rest: After standing at random poses for a while, by method and then by what the camera did.
+        consistency: By situation and then by method; methods that state no covariance are left out.
+        whiteness: Of innovations while driving, by online method and then by kind of reading.
+        stress: By method and then by what was hard.
+    """
 
     static: dict[str, dict[str, Score]]
     spreads: dict[str, dict[str, Spread]]
     moving: dict[str, dict[str, Score]]
+    travels: dict[str, Score]
+    scans: dict[str, ScanScore]
+    rest: dict[str, dict[str, Score]]
+    consistency: dict[str, dict[str, Consistency]]
+    whiteness: dict[str, dict[str, Whiteness]]
+    stress: dict[str, dict[str, Score]]
 
     @property
     def methods(self) -> tuple[str, ...]:
@@ -41,12 +114,74 @@ class Scores:
 
 def score_validation(validation: Validation) -> Scores:
     """Score every track."""
-    methods = validation.plan.methods
+    v, methods = validation, validation.plan.methods
+    travels = [v.moving[d] for d in TRAVELS if d in v.moving]
+    situations = {f"at rest, {kind}": of for kind, of in v.rest.items()}
+    if v.driving:
+        situations["driving"] = v.driving
+    rng = np.random.default_rng(v.plan.seed)
+    samples = {name: [_one_sample(r, rng) for r in of] for name, of in situations.items()}
+    judged = {
+        name: {m: consistency([r.tracks[m] for r in of], samples[name]) for m in methods}
+        for name, of in situations.items()
+    }
+    watching = dict.fromkeys(HINDSIGHT[m] for m in methods if m in HINDSIGHT)
+    white = {
+        m: {kind: whiteness(v.driving, m, kind, after=STARTED) for kind in KINDS}
+        for m in watching
+        if v.driving
+    }
     return Scores(
-        static={m: {p: score(r.tracks[m]) for p, r in validation.static.items()} for m in methods},
-        spreads={m: {p: spread(r.tracks[m]) for p, r in validation.static.items()} for m in methods},
-        moving={m: {d: score(r.tracks[m]) for d, r in validation.moving.items()} for m in methods},
+        static={m: {p: score(r.tracks[m], r.t) for p, r in v.static.items()} for m in methods},
+        spreads={m: {p: spread(r.tracks[m]) for p, r in v.static.items()} for m in methods},
+        moving={m: {d: score(r.tracks[m], r.t) for d, r in v.moving.items()} for m in methods},
+        travels={m: _together(travels, m) for m in methods},
+        scans={p: _scan_score(fixes) for p, fixes in v.scans.items()},
+        rest={m: {kind: _last(of, m) for kind, of in v.rest.items()} for m in methods},
+        consistency={n: {m: c for m, c in of.items() if c is not None} for n, of in judged.items()},
+        whiteness={m: {kind: w for kind, w in of.items() if w is not None} for m, of in white.items()},
+        stress={m: {kind: _together(of, m) for kind, of in v.stress.items()} for m in methods},
     )
+
+
+def _together(rollouts: Sequence[Rollout], method: str) -> Score:
+    """Over all samples of several runs."""
+    return score(joined_tracks([r.tracks[method] for r in rollouts]), np.concatenate([r.t for r in rollouts]))
+
+
+def _last(rollouts: Sequence[Rollout], method: str) -> Score:
+    """Over the last sample of each run."""
+    return score(joined_tracks([picked(r.tracks[method], slice(-1, None)) for r in rollouts]))
+
+
+def _one_sample(rollout: Rollout, rng: np.random.Generator) -> int:
+    """Which sample of a run stands for it: one at random, neither too early nor too late."""
+    t = rollout.t
+    return int(rng.choice(np.flatnonzero((t >= STARTED) & (t <= t[-1] - BEFORE_END))))
+
+
+def _scan_score(fixes: ScanFixes) -> ScanScore:
+    return ScanScore(
+        limit=fixes.limit,
+        axes=fixes.axes,
+        spread=fixes.single.T @ fixes.single / len(fixes.single),
+        rmse=_rms(fixes.single),
+        nees=_finite_mean(fixes.single_nees),
+        joint_rmse=_rms(fixes.joint),
+        joint_nees=_finite_mean(fixes.joint_nees),
+        n=len(fixes.single),
+        groups=len(fixes.joint),
+    )
+
+
+def _rms(error: Array) -> float | None:
+    """Root mean square length of errors (N, 2); None unless all are there."""
+    mean = _finite_mean(np.sum(error**2, axis=1))
+    return None if mean is None else float(np.sqrt(mean))
+
+
+def _finite_mean(values: Array) -> float | None:
+    return float(values.mean()) if values.size and np.isfinite(values).all() else None
 
 
 def times(value: float | None, factor: float) -> float | None:

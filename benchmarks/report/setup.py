@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import platform
 import shlex
+from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -20,6 +21,7 @@ def describe(plan: Plan, command: str) -> dict[str, Any]:
         "seed": plan.seed,
         "methods": list(plan.methods),
         "samples": plan.samples,
+        "effort": asdict(plan.effort),
         "versions": versions(),
         "config": plan.config.as_dict(),
     }
@@ -44,6 +46,7 @@ def validate_command(
     *,
     quick: bool,
     cameras: bool = False,
+    stress: bool = False,
 ) -> str:
     """The command line that makes the same report again."""
     words = ["gt-env", "validate", "--config", config]
@@ -52,5 +55,5 @@ def validate_command(
     words += ["--seed", str(seed)]
     for method in methods:
         words += ["--method", method]
-    words += ["--quick"] * quick + ["--cameras"] * cameras
+    words += ["--quick"] * quick + ["--cameras"] * cameras + ["--stress"] * stress
     return shlex.join(words)

@@ -5,12 +5,26 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from benchmarks.experiments.scans import TOGETHER
 from benchmarks.metrics import Score
-from benchmarks.report.scores import DEGREES, MM, TO_ERROR_UNITS, TO_POSE_UNITS, Scores, scaled, times
+from benchmarks.report.consistency import consistency_json, whiteness_json
+from benchmarks.report.scores import (
+    DEGREES,
+    MM,
+    TO_ERROR_UNITS,
+    TO_POSE_UNITS,
+    ScanScore,
+    Scores,
+    scaled,
+    times,
+)
 
 
 def report_json(scores: Scores, setup: dict[str, Any], cameras: dict[str, Any] | None = None) -> str:
-    """Strict JSON: `setup`, `static` by method and point, `moving` by drive and method, perhaps `cameras`.
+    """Strict JSON: `setup`, `static` by method and point, `moving` by drive and method, and what else there is.
+
+    `limits` by test point; `rest` by what the camera did, `travels` (all drives that go somewhere together) and
+    `stress` by method; `consistency`, `whiteness`, `cameras`.
 
     `mean`, `std`, `mode` are x, y, yaw in [m, m, deg]; `mae` in [mm, mm, deg]; `valid` is a share of the
     samples; `nees` is null where a method states no covariance, any number where nothing valid was said.
@@ -21,8 +35,16 @@ def report_json(scores: Scores, setup: dict[str, Any], cameras: dict[str, Any] |
         "static": {method: _static(scores, method) for method in scores.methods},
         "moving": {d: {m: _moving(scores.moving[m][d]) for m in scores.methods} for d in drives},
     }
-    if cameras is not None:
-        report["cameras"] = cameras
+    further = {
+        "limits": {point: _limit(s) for point, s in scores.scans.items()},
+        "rest": _by_kind(scores.rest),
+        "travels": {m: _moving(s) for m, s in scores.travels.items() if s.n},
+        "stress": _by_kind(scores.stress),
+        "consistency": consistency_json(scores),
+        "whiteness": whiteness_json(scores),
+        "cameras": cameras,
+    }
+    report |= {key: value for key, value in further.items() if value}
     return json.dumps(report, indent=2, allow_nan=False) + "\n"
 
 
@@ -53,6 +75,29 @@ def _moving(score: Score) -> dict[str, Any]:
         "max_xy_mm": times(score.max_xy, MM),
         "mae_yaw_deg": times(score.mae[2], DEGREES),
         "max_yaw_deg": times(score.largest[2], DEGREES),
+        "p99_yaw_deg": times(score.p99_yaw, DEGREES),
         "valid": score.valid,
+        "valid_after_2s": score.valid_later,
         "nees": score.nees,
+    }
+
+
+def _by_kind(scores: dict[str, dict[str, Score]]) -> dict[str, Any]:
+    """By kind and then by method."""
+    kinds = next(iter(scores.values()), {})
+    return {kind: {m: _moving(of[kind]) for m, of in scores.items()} for kind in kinds}
+
+
+def _limit(s: ScanScore) -> dict[str, Any]:
+    return {
+        "radial_mm": s.limit.radial_std * MM,
+        "tangential_mm": s.limit.tangential_std * MM,
+        "rmse_mm": s.limit.rmse * MM,
+        "one_scan": {"n": s.n, "rmse_xy_mm": times(s.rmse, MM), "over_limit": s.over_limit, "nees": s.nees},
+        "joint": {
+            "n": s.groups,
+            "scans": TOGETHER,
+            "rmse_xy_mm": times(s.joint_rmse, MM),
+            "nees": s.joint_nees,
+        },
     }

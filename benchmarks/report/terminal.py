@@ -32,5 +32,5 @@ def rich_table(table: Table) -> RichTable:
     for index, row in enumerate(table.rows):
         if table.last_is_total and index == len(table.rows) - 1:
             drawn.add_section()
-        drawn.add_row(*row)
+        drawn.add_row(*(Text(cell) for cell in row))  # brackets are no markup
     return drawn

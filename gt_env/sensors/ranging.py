@@ -36,16 +36,21 @@ class EngineRanging:
 def make_ranging(config: EnvConfig, engine: Engine) -> Ranging:
     """The backend that the configuration asks for."""
     c = config.lrf
-    bearings = beam_bearings(c)
     if c.backend == "bullet":
-        return EngineRanging(engine, (*c.position, c.height), bearings, c.range_max)
+        return EngineRanging(engine, (*c.position, c.height), beam_bearings(c), c.range_max)
+    return closed_form_ranging(config)
+
+
+def closed_form_ranging(config: EnvConfig) -> PlaneRanging:
+    """Exact ranges to walls, target, robot and obstacles that are no URDF; needs no engine."""
+    c = config.lrf
     return PlaneRanging(
         room=config.room.without_obstacles(),
         walls_cross=config.room.wall_height > c.height,
         fixed=tuple(obstacle_parts(config, c.height)),
         moving=tuple(robot_parts(config, c.height)),
         origin=c.position,
-        bearings=bearings,
+        bearings=beam_bearings(c),
     )
 
 

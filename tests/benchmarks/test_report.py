@@ -13,7 +13,9 @@ from estimators.calibration import DEG
 from gt_env.config import load_config
 
 STATIC_KEYS = {"n", "mean", "std", "mode", "mae", "rmse_xy_mm", "valid", "nees"}
-MOVING_KEYS = {"rmse_xy_mm", "max_xy_mm", "mae_yaw_deg", "max_yaw_deg", "valid", "nees"}
+MOVING_KEYS = {
+    "rmse_xy_mm", "max_xy_mm", "mae_yaw_deg", "max_yaw_deg", "p99_yaw_deg", "valid", "valid_after_2s", "nees"
+}  # fmt: skip
 
 
 def faked(run, rng, *, valid=True, states_covariance=False):
@@ -54,7 +56,7 @@ def report(result):
 
 def test_the_report_has_exactly_the_published_schema():
     found = report(validation())
-    assert set(found) == {"setup", "static", "moving"}
+    assert set(found) == {"setup", "static", "moving", "travels"}
     points = found["static"]["thesis"]
     assert list(points) == [*"ABCDEFG", "all"]
     assert set(points["all"]) == {"mae", "rmse_xy_mm"}
@@ -62,7 +64,7 @@ def test_the_report_has_exactly_the_published_schema():
         assert set(points[point]) == STATIC_KEYS
         assert points[point]["nees"] is None
         assert all(len(points[point][key]) == 3 for key in ("mean", "std", "mode", "mae"))
-    assert list(found["moving"]) == ["path", "spin", "tour"]
+    assert list(found["moving"]) == ["path", "spin", "tour", "figure-of-eight", "spin-dithered"]
     assert all(set(found["moving"][drive]["thesis"]) == MOVING_KEYS for drive in found["moving"])
 
 

@@ -1,0 +1,102 @@
+"""Whether methods know how wrong they are, as tables and as JSON."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
+
+from benchmarks.consistency import CONFIDENCE, LEVELS, PARTS, Consistency, Nees, Whiteness
+from benchmarks.report.scores import Scores
+from benchmarks.report.tables import NONE, Table, number
+
+NOTE = (
+    "NEES: normalised estimation error squared, one sample of each run at a time drawn at random; in brackets, where "
+    f"the mean over the runs lies with {100 * CONFIDENCE:g} % if the stated covariance is right (chi squared); *: it "
+    "does not. Inside ellipse: share of all samples, with the standard error of the mean over runs."
+)
+WHITE = (
+    "An innovation is what a measurement says beyond what was expected; whitened, its values have mean square 1 and do "
+    "not depend on those before. Bound: what chance alone exceeds once in 500 times."
+)
+
+
+def consistency_tables(scores: Scores) -> list[Table]:
+    """NEES and coverage by situation and method, and the whiteness of innovations."""
+    rows = [
+        (f"{situation}, {method}", *_cells(found))
+        for situation, of in scores.consistency.items()
+        for method, found in of.items()
+    ]
+    inside = [f"inside {100 * level:g} %" for level in LEVELS]
+    white = [
+        (
+            f"{method}, {kind}s",
+            str(w.n),
+            number(w.square, 2),
+            number(w.correlation[0], 3),
+            number(float(max(w.correlation, key=abs)), 3),
+            number(w.bound, 3),
+        )
+        for method, of in scores.whiteness.items()
+        for kind, w in of.items()
+    ]
+    runs = {s: next(iter(of.values())).nees["position"].runs for s, of in scores.consistency.items() if of}
+    said = ", ".join(f"{n} runs {situation}" for situation, n in runs.items())
+    tables = []
+    if rows:
+        head = ("", *(f"NEES {name} ({part.stop - part.start})" for name, part in PARTS.items()), *inside)
+        tables.append(
+            Table(
+                title=f"Stated and actual errors: {said}",
+                head=head,
+                rows=tuple(rows),
+                note=NOTE,
+                section="consistency",
+            )
+        )
+    if white:
+        tables.append(
+            Table(
+                title="Innovations while driving",
+                head=("", "n", "mean square", "correlation, lag 1", "largest of 10 lags", "bound"),
+                rows=tuple(white),
+                note=WHITE,
+                section="consistency",
+            )
+        )
+    return tables
+
+
+def consistency_json(scores: Scores) -> dict[str, Any]:
+    """By situation and method: `nees` of pose, position and heading with their bounds, and `coverage`."""
+    return {
+        situation: {
+            method: {
+                "nees": {name: {**asdict(n), "holds": n.holds} for name, n in found.nees.items()},
+                "coverage": [asdict(c) for c in found.coverage],
+            }
+            for method, found in of.items()
+        }
+        for situation, of in scores.consistency.items()
+    }
+
+
+def whiteness_json(scores: Scores) -> dict[str, Any]:
+    """By online method and kind of reading."""
+    return {m: {kind: _white(w) for kind, w in of.items()} for m, of in scores.whiteness.items()}
+
+
+def _white(w: Whiteness) -> dict[str, Any]:
+    return {"n": w.n, "mean_square": w.square, "correlation": w.correlation.tolist(), "bound": w.bound}
+
+
+def _cells(found: Consistency) -> tuple[str, ...]:
+    nees = (_nees(found.nees[name]) for name in PARTS)
+    covered = (f"{100 * c.share:.0f} ± {100 * c.deviation:.0f} %" for c in found.coverage)
+    return *nees, *covered
+
+
+def _nees(n: Nees) -> str:
+    if n.mean is None:
+        return NONE
+    return f"{n.mean:.2f}{'' if n.holds else '*'} [{n.low:.2f}, {n.high:.2f}]"

@@ -1,0 +1,145 @@
+"""What a validation comes to, one column per method; and its scans beside their limit, and the harder drives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from benchmarks.experiments.scans import TOGETHER
+from benchmarks.metrics import Score, root_mean_square
+from benchmarks.report.scores import DEGREES, MM, TRAVELS, Scores, times
+from benchmarks.report.tables import NONE, Table, number
+from benchmarks.validation import DITHERED, STILL
+
+HARD = {
+    "usual": "path, tour, figure of eight",
+    "swept": "the same, scans swept over half their period",
+    "slip": "the same, wheels lose 5 % of their way",
+    "fast": "1.2 m/s, 2 m or more from the camera",
+    "whirl": "360 deg/s on the spot",
+}
+
+
+def summary_table(scores: Scores) -> Table:
+    """The figures that tell most."""
+    return Table(
+        title="At a glance: errors of the station by method",
+        head=("", *scores.methods),
+        rows=tuple(_rows(scores)),
+        note="RMSE: root mean square of the distance in the plane. 99 %: of the errors are smaller. Dithered: the "
+        "camera sweeps by 0.3 deg to either side, so that a target at rest is seen by other pixels each frame. "
+        "valid: share of the time from 2 s after a start with nothing known, in the worst drive.",
+        section="summary",
+    )
+
+
+def _rows(scores: Scores) -> Iterator[tuple[str, ...]]:
+    methods = scores.methods
+    for kind, said in ((STILL, ""), (DITHERED, ", dithered")):
+        of = [scores.rest[m][kind] for m in methods if kind in scores.rest[m]]
+        if of:
+            yield f"at rest after 10 s{said}: RMSE [mm]", *(_mm(s.rmse_xy) for s in of)
+            yield f"at rest after 10 s{said}: heading, mean error [deg]", *(_degrees(s.mae[2]) for s in of)
+    travels = [scores.travels[m] for m in methods]
+    yield "path, tour, figure of eight: RMSE [mm]", *(_mm(s.rmse_xy) for s in travels)
+    yield "path, tour, figure of eight: largest error [mm]", *(_mm(s.max_xy) for s in travels)
+    yield "path, tour, figure of eight: heading, mean error [deg]", *(_degrees(s.mae[2]) for s in travels)
+    yield "path, tour, figure of eight: heading, 99 % [deg]", *(_degrees(s.p99_yaw) for s in travels)
+    for drive, said in (("spin", ""), ("spin-dithered", ", dithered")):
+        if drive in scores.moving[methods[0]]:
+            turned = [scores.moving[m][drive] for m in methods]
+            yield (
+                f"turning on the spot{said}: heading, mean error [deg]",
+                *(_degrees(s.mae[2]) for s in turned),
+            )
+    yield "valid [%]", *(number(times(_least_valid(scores, m), 100), 1) for m in methods)
+
+
+def _least_valid(scores: Scores, method: str) -> float | None:
+    shares = [s.valid_later for s in scores.moving[method].values() if s.valid_later is not None]
+    return min(shares, default=None)
+
+
+def limit_table(scores: Scores) -> Table:
+    """One scan beside its limit at every test point, and many scans together."""
+    rows = [
+        (
+            point,
+            number(s.limit.radial_std * MM, 1),
+            number(s.limit.tangential_std * MM, 1),
+            number(s.limit.rmse * MM, 1),
+            number(times(s.rmse, MM), 1),
+            number(s.over_limit, 3),
+            number(s.nees, 2),
+            number(times(s.joint_rmse, MM), 2),
+            number(s.joint_nees, 2),
+        )
+        for point, s in scores.scans.items()
+    ]
+    of = scores.scans.values()
+    total = (
+        "all",
+        NONE,
+        NONE,
+        number(times(root_mean_square([s.limit.rmse for s in of]), MM), 1),
+        number(times(root_mean_square([s.rmse for s in of]), MM), 1),
+        number(max((s.over_limit for s in of if s.over_limit is not None), default=None), 3),
+        NONE,
+        number(times(root_mean_square([s.joint_rmse for s in of]), MM), 2),
+        NONE,
+    )
+    first = next(iter(of))
+    return Table(
+        title="One scan beside its limit, and many together [mm]",
+        head=(
+            "point", "limit along", "limit across", "limit RMSE", "RMSE", "over limit", "NEES",
+            f"{TOGETHER} scans RMSE", "NEES",
+        ),
+        rows=(*rows, total),
+        last_is_total=True,
+        note="The limit is the least root mean square error that any estimator can have: the mean covariance of the "
+        "posterior, given walls, noise and radius (along and across the line of sight). "
+        f"{first.n} scans a point of targets placed evenly over one beam spacing, and {first.groups} times "
+        f"{TOGETHER} scans of a target at rest. NEES: 2 for an honest covariance. Last row: root mean squares, and "
+        "the worst point over its limit.",
+        section="limits",
+    )  # fmt: skip
+
+
+def stress_table(scores: Scores) -> Table:
+    """Harder drives."""
+    rows = []
+    for kind, said in HARD.items():
+        for method in scores.methods:
+            s, usual = scores.stress[method][kind], scores.stress[method]["usual"]
+            compared = kind in ("swept", "slip") and s.rmse_xy is not None and usual.rmse_xy is not None
+            more = (s.rmse_xy or 0.0) / (usual.rmse_xy or 1.0) - 1 if compared else None
+            rows.append((f"{said}, {method}", *_cells(s), number(times(more, 100), 0)))
+    return Table(
+        title=f"Harder drives ({', '.join(TRAVELS)}: the first 25 s each)",
+        head=(
+            "drive",
+            "RMSE xy [mm]",
+            "max xy [mm]",
+            "MAE angle [deg]",
+            "99 % angle [deg]",
+            "valid [%]",
+            "NEES",
+            "more [%]",
+        ),
+        rows=tuple(rows),
+        note="more: RMSE beside that of the usual drives. NEES: over x, y, yaw and time; 3 for an honest covariance.",
+        section="stress",
+    )
+
+
+def _cells(s: Score) -> tuple[str, ...]:
+    valid = number(times(s.valid_later, 100), 1)
+    return _mm(s.rmse_xy), _mm(s.max_xy), _degrees(s.mae[2]), _degrees(s.p99_yaw), valid, number(s.nees, 2)
+
+
+def _mm(value: float | None) -> str:
+    return number(times(value, MM), 1)
+
+
+def _degrees(value: float | None) -> str:
+    return number(times(value, DEGREES), 2 if value is None or value * DEGREES >= 0.1 else 3)
