@@ -13,6 +13,7 @@ from rich.console import Console
 from benchmarks.commands.bench import bench
 from benchmarks.commands.play import play
 from benchmarks.commands.replay import replay
+from benchmarks.commands.score import score
 from benchmarks.commands.validate import validate
 from estimators.errors import GtEnvError
 
@@ -46,6 +47,7 @@ def _interruptible(command: Command) -> Command:
 
 app.command()(_interruptible(validate))
 app.command()(_interruptible(replay))
+app.command()(_interruptible(score))
 app.command()(_interruptible(bench))
 app.command()(play)  # it has recordings to save, and says itself what became of them
 

@@ -9,11 +9,18 @@ from typing import TypeVar, overload
 import numpy as np
 
 from benchmarks.recording.frames import StoredFrame
-from estimators.messages import Message
+from estimators.messages import LaserScan, Message
 from estimators.poses import Array
 from gt_env.config import EnvConfig
 
 MessageT = TypeVar("MessageT", bound=Message)
+
+
+def delivery(message: Message | StoredFrame) -> float:
+    """When a message is there [s]: a swept scan is stamped at its first beam and delivered after its last."""
+    if isinstance(message, LaserScan):
+        return message.stamp + message.time_increment * (len(message.ranges) - 1)
+    return message.stamp
 
 
 class MessageLog(Sequence[Message]):

@@ -17,10 +17,10 @@ from mcap.writer import Writer
 
 from benchmarks.recording.encoding import SCHEMA_VERSION, TruePose, encode
 from benchmarks.recording.frames import StoredFrame
-from benchmarks.recording.recording import Recording
+from benchmarks.recording.recording import Recording, delivery
 from benchmarks.recording.schemas import json_schema
 from estimators.errors import RecordingError
-from estimators.messages import LaserScan, Message
+from estimators.messages import Message
 from estimators.poses import Array, Pose2
 from gt_env.config import EnvConfig
 
@@ -77,10 +77,9 @@ class RecordingWriter:
             )
         self._last_stamp[message.source] = message.stamp
         schema, data = encode(message)
-        delivered = message.stamp
-        if isinstance(message, LaserScan):  # stamped at its first beam, delivered after its last
-            delivered += message.time_increment * (len(message.ranges) - 1)
-        self._time = min(max(self._time, round(delivered * 1e9)), LAST_TIME)  # viewers want it to increase
+        self._time = min(
+            max(self._time, round(delivery(message) * 1e9)), LAST_TIME
+        )  # viewers want it to increase
         with self._reporting():
             self._writer.add_message(
                 self._channel(message.source, schema),

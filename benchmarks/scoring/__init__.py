@@ -1,0 +1,1 @@
+"""What a localizer is worth, judged by the station, and whether the station may judge it."""

@@ -1,0 +1,129 @@
+"""Two localizers on the same runs: which is better, whether that is more than chance, and what could be seen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+
+from benchmarks.scoring.bootstrap import resampled_roots, sums
+from benchmarks.scoring.judge import JudgedRun
+from benchmarks.scoring.quantities import Z95, Quantity, corrected
+from benchmarks.scoring.station import REFERENCES
+from benchmarks.scoring.summary import run_units
+from benchmarks.scoring.verdicts import JUDGED
+
+LEVEL = 0.05
+"""Chance of calling any one difference of a quantity significant where there is none."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Comparison:
+    """The difference of two root mean squared errors, the first's less the second's.
+
+    Attributes:
+        first: Name of a subject.
+        second: Name of another.
+        what: `position`, `yaw` or `relative`.
+        difference: Of the corrected errors [m or rad].
+        interval: 95 %, of the difference over very many such runs.
+        p: Chance of such a difference if there was none.
+        significant: Whether it is more than chance, all pairs of the quantity considered (Holm).
+        resolvable: The smallest difference that these runs before this reference would have shown.
+        by_station: The part of that which is the reference's: even of runs without end it cannot be less than
+            what its common errors leave.
+    """
+
+    first: str
+    second: str
+    what: str
+    difference: float
+    interval: tuple[float, float]
+    p: float
+    significant: bool
+    resolvable: float
+    by_station: float
+
+
+def compare(runs: Sequence[JudgedRun], reference: str, seed: int = 0) -> list[Comparison]:
+    """Compare all pairs of subjects on those runs in which both were there, by a paired bootstrap."""
+    found: list[Comparison] = []
+    for what, quantity in JUDGED.items():
+        pairs = [
+            compared
+            for a, b in combinations(runs[0].answers, 2)
+            if (compared := _compared(runs, reference, a, b, what, quantity, seed)) is not None
+        ]
+        found += _holm(pairs)
+    return found
+
+
+def ranks(names: Sequence[str], values: Mapping[str, float], found: Sequence[Comparison]) -> dict[str, int]:
+    """One more than the number of subjects whose position is significantly better."""
+    better: dict[str, int] = dict.fromkeys((n for n in names if n in values), 0)
+    for c in found:
+        if c.what == "position" and c.significant:
+            better[c.first if c.difference > 0 else c.second] += 1
+    return {name: 1 + count for name, count in better.items()}
+
+
+def _compared(
+    runs: Sequence[JudgedRun], reference: str, a: str, b: str, what: str, quantity: str, seed: int
+) -> Comparison | None:
+    both = [(run.name, run.judged[reference][a], run.judged[reference][b]) for run in runs]
+    both = [(path, x, y) for path, x, y in both if x.errors is not None and y.errors is not None]
+    firsts = [x.errors.quantities[quantity] for _, x, _ in both if x.errors is not None]
+    seconds = [y.errors.quantities[quantity] for _, _, y in both if y.errors is not None]
+    score_a, score_b = corrected(firsts), corrected(seconds)
+    by = run_units([(path, x) for path, x, _ in both]) if both else None
+    if by is None or score_a is None or score_b is None:
+        return None
+    of_units = [sums([q.blocks for q in of], by) for of in (firsts, seconds)]
+    if any(len(u) != len(by.strata) for u in of_units):
+        return None
+    drawn = by.drawn(seed)
+    roots = [
+        resampled_roots(u, drawn, stated)
+        for u, stated in zip(of_units, (score_a.stated, score_b.stated), strict=True)
+    ]
+    few = math.sqrt(len(by.strata) / max(by.freedom, 1))
+    error = few * float((roots[0] - roots[1]).std())
+    difference = score_a.value - score_b.value
+    half = by.quantile * error
+    # Student's t as a normal deviate whose 97.5 % quantile is the same.
+    deviate = abs(difference) / error * Z95 / by.quantile if error > 0 else (math.inf if difference else 0.0)
+    return Comparison(
+        first=a,
+        second=b,
+        what=what,
+        difference=difference,
+        interval=(difference - half, difference + half),
+        p=math.erfc(deviate / math.sqrt(2)),
+        significant=False,
+        resolvable=half,
+        by_station=_by_station(firsts, seconds, score_a.raw + score_b.raw, reference),
+    )
+
+
+def _by_station(
+    firsts: Sequence[Quantity], seconds: Sequence[Quantity], both: float, reference: str
+) -> float:
+    """What the station's errors do to the difference: of the mean squares, 2 (e1 - e2).g, as |g|^2 cancels."""
+    share = np.array([q.n for q in firsts]) / sum(q.n for q in firsts)
+    apart = share @ np.array([x.cross - y.cross for x, y in zip(firsts, seconds, strict=True)])
+    spread = 2 * math.sqrt(REFERENCES[reference].understated) * float(apart.std())
+    return Z95 * spread / both if both > 0 else 0.0
+
+
+def _holm(pairs: Sequence[Comparison]) -> list[Comparison]:
+    """Mark what is significant among all (Holm, Scandinavian Journal of Statistics 6(2), 1979)."""
+    order = sorted(range(len(pairs)), key=lambda i: pairs[i].p)
+    marked = list(pairs)
+    for place, i in enumerate(order):
+        if pairs[i].p > LEVEL / (len(pairs) - place):
+            break
+        marked[i] = replace(pairs[i], significant=True)
+    return marked

@@ -1,0 +1,127 @@
+"""Runs that are simulated to be scored, each a task that any process can carry out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+
+from benchmarks.driving import DRIVES, Segment, actions, script, start_pose
+from benchmarks.paths import CALM_SPEED, LONG_DRIVE, PATHS, path_script, path_start
+from benchmarks.recording.writer import RecordingWriter
+from benchmarks.rollout import ARENA
+from benchmarks.scoring.judge import JudgedRun, Rules, judge
+from benchmarks.scoring.subjects import Subject, make_localizer
+from benchmarks.scoring.watch import Watch
+from estimators.errors import ConfigError
+from estimators.poses import Array, Pose2
+from gt_env.config import EnvConfig
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class LiveRun:
+    """Everything that one run depends on.
+
+    Attributes:
+        config: Of room, station and robot.
+        subjects: Who is scored.
+        path: One of `PATHS` or `DRIVES`.
+        duration: Of a path [s]; drives take as long as they take.
+        speed: On a path [m/s].
+        seed: Of the episode and of the localizers.
+        number: Of the run among all.
+        rules: How it is judged.
+        recording: A file to record the run in, or "".
+        series: Whether trajectories are kept for figures.
+    """
+
+    config: EnvConfig
+    subjects: tuple[Subject, ...]
+    path: str
+    seed: int
+    number: int
+    rules: Rules
+    duration: float = LONG_DRIVE
+    speed: float = CALM_SPEED
+    recording: str = ""
+    series: bool = True
+
+    def plan(self) -> tuple[Pose2, Array]:
+        """Where the run starts, and its actions (steps, 2).
+
+        Raises:
+            ConfigError: If it does not fit into the room.
+        """
+        segments: list[Segment]
+        if self.path in PATHS:
+            start = path_start(self.path, self.config)
+            segments = path_script(self.path, self.config, speed=self.speed, duration=self.duration)
+        else:
+            start, segments = start_pose(self.path, self.config), script(self.path, self.config)
+        return start, actions(segments, self.config, self.config.timing.step)
+
+
+def path_named(text: str) -> str:
+    """A path or drive by its name or a part of it that no other path has.
+
+    Raises:
+        ConfigError: If there is none, or more than one.
+    """
+    known = (*PATHS, *DRIVES)
+    if text in known:
+        return text
+    found = [name for name in known if text and text in name]
+    if len(found) != 1:
+        raise ConfigError(f"--path {text}: must be one of {', '.join(known)}")
+    return found[0]
+
+
+def score_live(run: LiveRun, on_step: Callable[[], None] | None = None) -> JudgedRun:
+    """Drive, let station and localizers listen, and judge."""
+    start, commands = run.plan()
+    env: gym.Env[Any, Any] = gym.make(ARENA, config=run.config, disable_env_checker=True)
+    recorder = RecordingWriter(run.recording, run.config) if run.recording else None
+    try:
+        base: Any = env.unwrapped
+        env.reset(seed=run.seed, options={"pose": tuple(start)})
+        localizers = {
+            s.name: make_localizer(s, base.believed_robot, base.believed_map, start, run.seed)
+            for s in run.subjects
+        }
+        watch = Watch(base.believed_calibration, localizers)
+        truth = [_listen(watch, base, recorder)]
+        for command in commands:
+            env.step(command)
+            truth.append(_listen(watch, base, recorder))
+            if on_step is not None:
+                on_step()
+        if recorder is not None:
+            recorder.close()
+    finally:
+        env.close()
+        if recorder is not None:
+            recorder.discard()
+    judged = judge(
+        run.path,
+        run.seed,
+        run.number,
+        watch.answers(),
+        watch.references(),
+        np.concatenate(truth),
+        run.rules,
+    )
+    return judged if run.series else judged.without_series()
+
+
+def _listen(watch: Watch, base: Any, recorder: RecordingWriter | None) -> Array:
+    truth = np.array(base.truth)
+    watch.take(base.measurements, truth)
+    if recorder is not None:
+        for stamp, *pose in truth.tolist():
+            recorder.write_truth(stamp, pose)
+        for message in base.measurements:
+            recorder.write(message)
+    return truth

@@ -1,0 +1,173 @@
+"""A score's files: `report.json`, figures, `report.html`."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+
+from benchmarks.report.gallery import Plate
+from benchmarks.report.scores import MM
+from benchmarks.report.tables import NONE, Table
+from benchmarks.scoring.comparison import Comparison, compare, ranks
+from benchmarks.scoring.judge import JudgedRun, Rules
+from benchmarks.scoring.report import report
+from benchmarks.scoring.summary import SubjectSummary, summarise
+from benchmarks.scoring.tables import ordered, score_tables
+from benchmarks.scoring.verdicts import verdict
+from estimators.room import Room
+
+HEADLINES = 6
+"""Subjects at the top of the page."""
+MAPS = 4
+"""Runs that are drawn over the map."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Result:
+    """Everything that a score came to.
+
+    Attributes:
+        runs: All of them.
+        rules: How they were judged.
+        reference: Which reference counts where only one is shown.
+        summaries: One per subject.
+        comparisons: Of all pairs.
+        ranks: By subject.
+    """
+
+    runs: Sequence[JudgedRun]
+    rules: Rules
+    reference: str
+    summaries: Sequence[SubjectSummary]
+    comparisons: Sequence[Comparison]
+    ranks: Mapping[str, int]
+
+    @classmethod
+    def of(cls, runs: Sequence[JudgedRun], rules: Rules, reference: str) -> Result:
+        """Summarise and compare."""
+        summaries = summarise(runs, reference, rules.seed)
+        comparisons = compare(runs, reference, rules.seed)
+        values = {
+            s.name: position.value
+            for s in summaries
+            if (score := s.by_reference[reference]) and (position := score.scores["position"])
+        }
+        order = ranks([s.name for s in summaries], values, comparisons)
+        return cls(
+            runs=runs,
+            rules=rules,
+            reference=reference,
+            summaries=summaries,
+            comparisons=comparisons,
+            ranks=order,
+        )
+
+    def tables(self) -> list[Table]:
+        """For terminal and page."""
+        return score_tables(self.summaries, self.comparisons, self.ranks, self.reference, self.rules.align)
+
+    def json(self, setup: Mapping[str, Any]) -> str:
+        """The text of `report.json`."""
+        return report(self.summaries, self.comparisons, self.ranks, self.reference, setup)
+
+
+def write_page(folder: Path, result: Result, room: Room, setup: Mapping[str, Any], console: Console) -> None:
+    """Write the figures and `report.html`. Needs the extra `report`."""
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    from benchmarks.figures.style import paper, save_png
+
+    shown = plates(result, room)
+    with console.status("drawing") as status:
+        for plate in shown:
+            status.update(f"drawing {plate.name}")
+            with paper():
+                save_png(plate.draw(), folder / f"{plate.name}.png")
+    environment = Environment(
+        loader=PackageLoader("benchmarks"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
+        lstrip_blocks=True,
+    )  # fmt: skip
+    page = environment.get_template("score.html.j2").render(
+        facts=_facts(result),
+        tables=result.tables(),
+        plates=shown,
+        pictures={p.name: base64.b64encode((folder / f"{p.name}.png").read_bytes()).decode() for p in shown},
+        setup=setup,
+        config=json.dumps(setup["config"], indent=1),
+    )
+    (folder / "report.html").write_text(page, encoding="utf-8")
+
+
+def plates(result: Result, room: Room) -> list[Plate]:
+    """The figures: of the first run of each path, and of all runs together."""
+    from benchmarks.figures.score import map_figure, run_pairs, time_figure
+    from benchmarks.figures.score_curves import ellipse_figure, ratio_figure, rpe_figure
+
+    reference, rules = result.reference, result.rules
+    drawn = [run for run in result.runs if reference in run.references]
+    first = list({run.name: run for run in reversed(drawn)}.values())[::-1][:MAPS]
+    of_run = [run_pairs(run, reference, rules.align, rules.max_gap) for run in first]
+    names = [s.name for s in result.summaries]
+    return [
+        _plate(
+            "ratios",
+            "Who may be judged: green, the station is good enough; yellow, it shows the error but stands out itself; "
+            "red, it cannot tell. Filled: by its stated covariance, as in a lab; open: by the truth.",
+            partial(ratio_figure, result.summaries),
+        ),
+        _plate(
+            "trajectories",
+            "Ways over the map, the first run of each path; the station's dashed.",
+            partial(map_figure, first, of_run, room, reference, rules.align),
+        ),
+        *(
+            _plate(
+                f"errors-{run.name}",
+                "Errors over time. Grey: up to where the station itself may be off, as it says. An error within the "
+                "grey cannot be told from the station's.",
+                partial(time_figure, run, pairs, reference, rules.align),
+            )
+            for run, pairs in zip(first, of_run, strict=True)
+        ),
+        _plate(
+            "rpe",
+            "Errors of relative motion over the way, less the station's own; bars: 95 %, of these runs. Dashed: "
+            "what the station's errors make of a motion, as stated.",
+            partial(rpe_figure, result.summaries, reference),
+        ),
+        _plate(
+            "ellipses",
+            f"Errors along and across the heading in one run ({first[0].name}), with the ellipses that localizer "
+            "and station state.",
+            partial(ellipse_figure, of_run[0], names),
+        ),
+    ]
+
+
+def _plate(name: str, caption: str, draw: Any) -> Plate:
+    return Plate(name=name, section="score", repeats="", caption=caption, draw=draw)
+
+
+def _facts(result: Result) -> list[dict[str, str]]:
+    facts = []
+    for s in ordered(result.summaries, result.ranks, result.reference)[:HEADLINES]:
+        score = s.by_reference[result.reference]
+        position = score.scores["position"] if score else None
+        value = score.ratios["position"] if score else None
+        facts.append(
+            {
+                "what": s.name,
+                "value": NONE if position is None else f"{MM * position.value:.1f}",
+                "unit": "mm",
+                "verdict": verdict(value),
+                "ratio": NONE if value is None else f"{value:.1f} : 1",
+            }
+        )
+    return facts
