@@ -11,7 +11,7 @@ import gymnasium as gym
 import numpy as np
 
 from benchmarks.bench.rows import Finding, Row, Skipped, faster
-from benchmarks.bench.setup import ACTION, LIGHTEST, Setup
+from benchmarks.bench.setup import ACTION, RENDERERS, Setup
 from benchmarks.bench.timing import Call, Effort, interleave
 from benchmarks.rollout import ARENA
 from estimators.errors import ConfigError
@@ -23,35 +23,45 @@ SPAWNED = 2
 
 def vector_envs(setup: Setup) -> Iterator[Finding]:
     """Steps per second of 1, 2, 4 ... environments, one after another and in processes of their own."""
-    renderer = LIGHTEST
-    try:
-        config = setup.variant(renderer=renderer)
-    except ConfigError as error:
-        yield Skipped(what=f"vector envs, {renderer}", why=str(error))
-        config = setup.config
     effort = Effort(rounds=max(3, setup.effort.rounds // 2), turn=4 * setup.effort.turn)
-    for count in setup.counts:
-        yield from _of_count(setup, config, count, effort)
+    for renderer in RENDERERS:
+        try:
+            config = setup.variant(renderer=renderer, enabled=True, in_observation=True)
+        except ConfigError as error:
+            yield Skipped(what=f"vector envs, {renderer}", why=str(error))
+            continue
+        for count in setup.counts:
+            yield from _of_count(setup, renderer, config, count, effort)
 
 
-def _of_count(setup: Setup, config: EnvConfig, count: int, effort: Effort) -> Iterator[Row]:
-    kinds: dict[str, dict[str, Any]] = {"sync": {"vectorization_mode": "sync"}}
-    for context in _contexts(count):
-        options: dict[str, Any] = {"shared_memory": True, "context": context}
-        kinds[f"async, {context}"] = {"vectorization_mode": "async", "vector_kwargs": options}
+def _of_count(setup: Setup, renderer: str, config: EnvConfig, count: int, effort: Effort) -> Iterator[Row]:
     calls: dict[str, Call] = {}
     with ExitStack() as stack:
         single = setup.arena(config)
         stack.callback(single.close)
         calls["single"] = lambda: single.step(ACTION)
-        for name, kind in kinds.items():
+        for name, kind in _kinds(count).items():
             envs = gym.make_vec(ARENA, num_envs=count, config=config, **kind)
             stack.callback(envs.close)
             envs.reset(seed=setup.seed)
             calls[name] = _stepper(envs)
         seconds = interleave(calls, effort)
-    for name in kinds:
-        yield faster("vector", f"{count} x {name}", seconds[name] / count, "one env", seconds["single"])
+    alone = seconds.pop("single")
+    for name, together in seconds.items():
+        yield faster("vector", f"{count} x {name}, {renderer}", together / count, "one env", alone)
+
+
+def _kinds(count: int) -> dict[str, dict[str, Any]]:
+    """Ways of running them, by name: arguments for `gymnasium.make_vec`."""
+    kinds: dict[str, dict[str, Any]] = {"sync": {"vectorization_mode": "sync"}}
+    for context in _contexts(count):
+        options: dict[str, Any] = {"shared_memory": True, "context": context}
+        kinds[f"async, {context}"] = {"vectorization_mode": "async", "vector_kwargs": options}
+        if count == SPAWNED:
+            # The observations are then views of the shared memory, which the next step writes over.
+            views = {**options, "copy": False}
+            kinds[f"async, {context}, copy=False"] = {"vectorization_mode": "async", "vector_kwargs": views}
+    return kinds
 
 
 def _contexts(count: int) -> list[str]:

@@ -104,7 +104,7 @@ def test_a_reset_is_compared_with_a_step(setup):
 
 def test_vector_environments_are_counted_per_environment(setup):
     rows = list(vector_envs(setup))
-    assert [row.what for row in rows if isinstance(row, Row)][:1] == ["1 x sync"]
+    assert [row.what for row in rows if isinstance(row, Row)][:1] == [f"1 x sync, {RENDERERS[0]}"]
     assert {row.group for row in rows if isinstance(row, Row)} == {"vector"}
 
 
@@ -180,11 +180,10 @@ def test_a_quick_run_measures_everything(tmp_path):
     report = json.loads((out / "report.json").read_text())
     measured = {(row["group"], row["what"]) for row in report["ratios"]}
     assert {group for group, _ in measured} >= {"pybullet", "cost", "vector", "real_time"}
-    assert {what for group, what in measured if group == "vector"} >= {
-        "1 x sync",
-        "2 x sync",
-        "2 x async, spawn",
-    }
+    side_by_side = {what for group, what in measured if group == "vector"}
+    for renderer in RENDERERS:
+        for kind in ("1 x sync", "2 x sync", "2 x async, spawn", "2 x async, spawn, copy=False"):
+            assert f"{kind}, {renderer}" in side_by_side
     for renderer in RENDERERS:
         assert ("pybullet", f"frame 320x240, {renderer}") in measured
     for row in report["ratios"]:
