@@ -90,7 +90,12 @@ def _ray(address: str | None, jobs: int) -> Iterator[None]:
             os.environ.setdefault("RAY_AUTH_TOKEN", secrets.token_hex(32))
         local = {"num_cpus": jobs, "include_dashboard": False}
         where = local if address is None else {"address": address}
-        ray.init(**where, log_to_driver=False, logging_level="ERROR")
+        try:
+            ray.init(**where, log_to_driver=False, logging_level="ERROR")
+        except (ConnectionError, RuntimeError) as error:
+            said = (str(error).strip().splitlines() or [type(error).__name__])[0]
+            where_asked = "--engine ray" if address is None else f"--address {address}"
+            raise ClusterError(f"{where_asked}: ray cannot connect: {said}") from None
     try:
         with parallel_config(backend="ray", n_jobs=jobs):
             yield

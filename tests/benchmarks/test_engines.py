@@ -1,4 +1,5 @@
 import io
+import json
 import os
 import secrets
 import signal
@@ -12,8 +13,10 @@ from pathlib import Path
 
 import pytest
 from rich.console import Console
+from typer.testing import CliRunner
 
 from benchmarks import engines
+from benchmarks.cli import app
 from benchmarks.engines import ClusterError, Engine
 from benchmarks.parallel import SweepError, run_side_by_side
 from estimators.errors import ConfigError, MissingExtraError
@@ -21,6 +24,8 @@ from estimators.errors import ConfigError, MissingExtraError
 sys.path.insert(0, str(Path(__file__).parent))  # the cluster's processes get it from here
 from sweep_tasks import draw, misbehave
 
+TOKEN = secrets.token_hex(32)
+"""Of the clusters that these tests start; one for all, since ray reads it once, when it is imported."""
 pytestmark = pytest.mark.filterwarnings("ignore::ResourceWarning", "ignore::FutureWarning")
 
 
@@ -106,9 +111,8 @@ def cluster(request, monkeypatch):
     name, package = request.param
     if find_spec(package) is None:
         pytest.skip(f"--engine {name} needs {package}, of the extra `cluster`")
-    # A token of this test's own, for its own cluster; ray reads them when it is imported.
     monkeypatch.setenv("RAY_AUTH_MODE", "token")
-    monkeypatch.setenv("RAY_AUTH_TOKEN", secrets.token_hex(32))
+    monkeypatch.setenv("RAY_AUTH_TOKEN", TOKEN)
     port = free_port()
     command = {
         "ray": [
@@ -132,7 +136,7 @@ def cluster(request, monkeypatch):
     finally:
         os.killpg(process.pid, signal.SIGTERM)
         try:
-            process.wait(20)
+            process.wait(5)
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             process.wait()
@@ -165,3 +169,20 @@ def test_a_cluster_gives_the_same_bytes_and_names_what_failed(cluster):
     with pytest.raises(SweepError, match="1 of 3 runs failed: run 2: its process died") as raised:
         sweep(misbehave, ["a", "die", "c"], cluster)
     assert raised.value.results == ["a", None, "c"]
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(600)
+@on_every_cluster
+def test_a_validation_on_a_cluster_is_the_same_report_bit_for_bit(cluster, tmp_path):
+    pytest.importorskip("pybullet")
+    command = ["validate", "--quick", "--no-figures", "--seed", "3", "--jobs", "2"]
+    command += ["--set", "camera.width=80", "--set", "camera.height=60"]
+    reports = []
+    for place in (["--engine", cluster.name, "--address", cluster.address], ["--engine", "loky"]):
+        out = tmp_path / place[1]
+        done = CliRunner().invoke(app, [*command, *place, "--out", str(out)])
+        assert done.exit_code == 0, done.output
+        reports.append({p.name: p.read_bytes() for p in out.iterdir()})
+    assert json.loads(reports[0]["report.json"])["setup"]["seed"] == 3
+    assert reports[0] == reports[1]
