@@ -14,11 +14,14 @@ State = tuple[tuple[float, float, float], tuple[float, float, float, float]]
 class Body:
     """A robot in the engine: where its base is, and its wheels."""
 
-    def __init__(self, p: Any, client: int, number: int, joints: list[int]) -> None:
+    def __init__(
+        self, p: Any, client: int, number: int, joints: list[int], steering: Sequence[int] = ()
+    ) -> None:
         self._p = p
         self._client = client
         self.number = number
         self.joints = joints
+        self._steering = steering
         # The engine speaks of the centre of mass, which lies at a fixed offset from the base frame.
         self._com: tuple[float, ...] = p.getDynamicsInfo(number, -1, physicsClientId=client)[3]
         # Asked at every tick; without names the engine reads its arguments in half the time.
@@ -70,6 +73,17 @@ class Body:
             positionGains=[gain] * n,
             velocityGains=[1.0] * n,
             forces=[torque] * n,
+            physicsClientId=self._client,
+        )
+
+    def steer(self, angles: Sequence[float], torque: float) -> None:
+        """Turn the steering joints to angles [rad] with at most a torque [N m]."""
+        self._p.setJointMotorControlArray(
+            self.number,
+            self._steering,
+            self._p.POSITION_CONTROL,
+            targetPositions=angles,
+            forces=[torque] * len(self._steering),
             physicsClientId=self._client,
         )
 

@@ -21,6 +21,7 @@ from estimators.errors import ConfigError, MissingExtraError
 from estimators.poses import Array
 from gt_env.body import Body
 from gt_env.config.sections import Color, LightConfig, PhysicsConfig
+from gt_env.robot_model import RobotModel
 
 CONTACT_DISTANCE = 2e-5
 """How far apart two things may be and still be kept in contact [m]. With the engine's own value, a thousand times
@@ -149,38 +150,38 @@ class Engine:
         except p.error as error:
             raise ConfigError(f"obstacle {file!r}: must be a URDF file that can be loaded: {error}") from None
 
-    def add_robot(
-        self, urdf: str, x: float, y: float, yaw: float, ground: int, wheels: Sequence[str]
-    ) -> Body:
+    def add_robot(self, model: RobotModel, x: float, y: float, yaw: float, ground: int) -> Body:
         """A robot whose wheels roll on the ground and whose body slides along everything else.
 
         Args:
-            urdf: Its description.
+            model: Its description.
             x: Of its base frame [m].
             y: [m].
             yaw: [rad].
             ground: Body that the wheels touch; they pass through all bodies made so far but this one.
-            wheels: Names of the wheels' joints.
         """
         p, client = self._p, self._client
+        others = [
+            p.getBodyUniqueId(i, physicsClientId=client)
+            for i in range(p.getNumBodies(physicsClientId=client))
+        ]
         with tempfile.TemporaryDirectory(prefix="gt-env-") as folder:
             path = Path(folder) / "robot.urdf"
-            path.write_text(urdf)
-            flags = p.URDF_USE_IMPLICIT_CYLINDER
-            others = [
-                p.getBodyUniqueId(i, physicsClientId=client)
-                for i in range(p.getNumBodies(physicsClientId=client))
-            ]
-            number = p.loadURDF(str(path), flags=flags, physicsClientId=client)
+            path.write_text(model.urdf)
+            try:
+                number = p.loadURDF(str(path), flags=p.URDF_USE_IMPLICIT_CYLINDER, physicsClientId=client)
+            except p.error as error:
+                raise ConfigError(f"robot.urdf: cannot be loaded: {error}") from None
         names = {
             p.getJointInfo(number, j, physicsClientId=client)[1].decode(): j
             for j in range(p.getNumJoints(number, physicsClientId=client))
         }
-        body = Body(p, client, number, [names[w] for w in wheels])
+        body = Body(p, client, number, [names[w] for w in model.wheels], [names[s] for s in model.steering])
         body.place(x, y, yaw)
+        rolling = {*body.joints, *(names[r] for r in model.rollers)}
         # Bullet multiplies the two frictions: the floor's is the value that counts.
         for link in range(-1, len(names)):
-            rolls = link in body.joints
+            rolls = link in rolling
             p.changeDynamics(
                 number,
                 link,
@@ -190,9 +191,19 @@ class Engine:
                 jointDamping=0.0,
                 physicsClientId=client,
             )
+            if model.spin and link in body.joints:
+                across = p.getDynamicsInfo(number, link, physicsClientId=client)[2][0]
+                moments = [across, model.spin, across]
+                p.changeDynamics(number, link, localInertiaDiagonal=moments, physicsClientId=client)
+            if rolls and model.slide:
+                p.changeDynamics(number, link, anisotropicFriction=[1, 0, 1], physicsClientId=client)
             for other in others if rolls else ():
                 if other != ground:
                     p.setCollisionFilterPair(number, other, link, -1, 0, physicsClientId=client)
+        if model.slide:  # the engine's cone of friction has the same radius in all directions
+            p.setPhysicsEngineParameter(enableConeFriction=0, physicsClientId=client)
+        for name in model.rollers:  # where nothing is said, the engine brakes a joint
+            p.setJointMotorControl2(number, names[name], p.VELOCITY_CONTROL, force=0, physicsClientId=client)
         return body
 
     def settle(self) -> None:

@@ -33,8 +33,18 @@ class ArenaEnv(gym.Env[Observation, Array]):
     There is no task: the reward is 0 and an episode never ends by itself.
 
     ## Action space
-    `Box(-1, 1, (2,), float32)`: speeds of the left and the right wheel over the robot's maximum
-    (`robot.max_wheel_speed`, 29.4 rad/s by default), held for one step (`timing.step`, 0.1 s).
+    `Box(-1, 1, (n,), float32)`, held for one step (`timing.step`, 0.1 s). Speeds are over the robot's maximum
+    (`robot.max_wheel_speed`, 29.4 rad/s by default).
+
+    | `robot.model` | n | action | `wheel_speeds` |
+    |---|---|---|---|
+    | `differential` | 2 | speeds of the left and the right wheel | of both |
+    | `skid_steer` | 2 | speeds of the left and the right wheels | mean of each side |
+    | `ackermann` | 2 | mean speed of the rear wheels, steering angle | of the rear wheels, left and right |
+    | `omni3` | 3 | speeds of the front left, rear and front right wheel | of all |
+
+    A steering angle is over `robot.max_steering_deg`, positive to the left; three omnidirectional wheels with
+    positive speeds turn the robot counter-clockwise.
 
     ## Observation space
     A flat `Dict`. A sensor with nothing new repeats its last value with its old stamp; one that is switched
@@ -45,7 +55,7 @@ class ArenaEnv(gym.Env[Observation, Array]):
     | `scan` | (beams,) float32 | m | the LRF's ranges; no return reads `lrf.range_max` |
     | `image` | (H, W, 3) uint8 | | the camera's frame, RGB; not with `camera.in_observation = false` |
     | `camera_pan` | (1,) float32 | rad | the pan unit's encoder when that frame was taken |
-    | `wheel_speeds` | (2,) float32 | rad/s | from the robot's encoders |
+    | `wheel_speeds` | (n,) float32 | rad/s | from the robot's encoders |
     | `imu` | (3,) float32 | rad/s, m/s^2 | the robot's gyro, and its accelerometer along x and y |
     | `robot_scan` | (beams,) float32 | m | the robot's own lidar; no return reads `onboard.lidar.range_max` |
     | `stamps` | (k,) float64 | s | when each enabled sensor measured: LRF, camera, encoders, IMU, lidar |
@@ -88,7 +98,7 @@ class ArenaEnv(gym.Env[Observation, Array]):
         self.metadata = {**self.metadata, "render_fps": max(1, round(1 / self.config.timing.step))}
         self._ticks = self.config.ticks(self.config.timing.step)
         self._build(self.config)
-        actions: Any = spaces.Box(-1.0, 1.0, (self._world.robot.wheels,), np.float32)
+        actions: Any = spaces.Box(-1.0, 1.0, (self._world.robot.actions,), np.float32)
         observations: Any = spaces.Dict(self._world.spaces())
         self.action_space = actions
         self.observation_space = observations

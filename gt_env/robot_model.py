@@ -1,63 +1,110 @@
-"""The differential robot and its target as a URDF, written from the configuration."""
+"""The robot and its target as a URDF, written from the configuration."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
 from estimators.calibration import DEG
 from gt_env.config.sections import Color, RobotConfig, TargetConfig
+from gt_env.config.shape import CASTER_RADIUS, RobotShape, Wheel, robot_shape
 
-Vector = tuple[float, float, float]
-WHEEL_JOINTS = ("left_wheel_joint", "right_wheel_joint")
 MARKER_DEPTH = 0.02
 """Depth of the box that a marker is made of [m]; all but its protrusion is inside the cylinder."""
-CASTER_RADIUS = 0.012
-CASTER_GAP = 5e-5
-"""Height of the casters above the floor [m]: the weight then rests on the wheels, not on casters alone."""
+KNUCKLE_MASS = 0.05
+"""Of what turns with a steered wheel, one half of the axle [kg]."""
+ROTOR_SHARE = 3.0
+"""Inertia of a skid-steered wheel with its motor over that of its load at its rim."""
 GUARD_GAP = 0.004
 """How much smaller than the wheel the guard is that touches walls in its place [m]."""
 
 
-def differential_robot(robot: RobotConfig, target: TargetConfig) -> str:
-    """URDF text of the robot: base frame on the floor in the middle of the axle, x forward, z up.
+@dataclass(frozen=True, kw_only=True, slots=True)
+class RobotModel:
+    """A robot as the engine loads it.
 
-    Body, casters and target are one link, so that the physics engine has three to move. A wheel looks like a
+    Attributes:
+        urdf: Its description; base frame on the floor, x forward, z up.
+        wheels: Names of the joints of driven wheels.
+        rollers: Names of the joints of wheels without a motor.
+        steering: Names of the steering joints, left and right.
+        spin: Moment of inertia of each driven wheel with its motor about the axle [kg m^2]; 0 for the wheel's own.
+        slide: Whether the wheels slide along their axles, as omnidirectional ones do.
+    """
+
+    urdf: str
+    wheels: tuple[str, ...]
+    rollers: tuple[str, ...] = ()
+    steering: tuple[str, ...] = ()
+    spin: float = 0.0
+    slide: bool = False
+
+
+def built_in_robot(robot: RobotConfig, target: TargetConfig) -> RobotModel:
+    """The robot that the configuration's measures describe.
+
+    Body, casters and target are one link, so that the physics engine has few to move. A wheel looks like a
     cylinder but rolls as a sphere: it then touches the floor in one point exactly below its middle, where a
     cylinder's contact wanders between its two rims and the robot with it. The sphere meets nothing but the
-    floor; walls are met by a guard on the body, slightly smaller than the wheel.
+    floor; walls are met by a guard on the body, slightly smaller than the wheel. An omnidirectional wheel is
+    such a sphere too, with friction only across its axle: its rollers are not simulated.
     """
-    root = ET.Element("robot", name="differential")
+    shape = robot_shape(robot, target)
+    root = ET.Element("robot", name=robot.model)
     base = ET.SubElement(root, "link", name="base")
-    size, middle = body_box(robot, target)
-    _base_inertia(base, robot, target, size, middle)
-    _shape(base, "both", _box(size), middle, color=robot.color, name="body")
-    for side in (1, -1):
-        place = (side * (0.5 * robot.length - 1.5 * CASTER_RADIUS), 0.0, CASTER_RADIUS + CASTER_GAP)
-        _shape(base, "both", _sphere(CASTER_RADIUS), place, color=robot.wheel_color, name="caster")
-        guard = _cylinder(robot.wheel_radius - GUARD_GAP, robot.wheel_width)
-        at_wheel = (0.0, side * 0.5 * robot.track, robot.wheel_radius)
-        _shape(base, "collision", guard, at_wheel, (0.5 * math.pi, 0, 0))
-    _add_target(base, target)
-    for joint, side in zip(WHEEL_JOINTS, (1, -1), strict=True):
-        _wheel(root, joint, side * 0.5 * robot.track, robot)
-    return ET.tostring(root, encoding="unicode")
+    add_inertia(base, robot, target, shape.size, shape.middle)
+    add_shape(base, "both", _box(shape.size), shape.middle, color=robot.color, name="body")
+    for place in shape.casters:
+        add_shape(base, "both", sphere(CASTER_RADIUS), place, color=robot.wheel_color, name="caster")
+    add_guards(base, shape)
+    add_target(base, target)
+    for wheel in shape.wheels:
+        _wheel(root, wheel, robot)
+    return RobotModel(
+        urdf=ET.tostring(root, encoding="unicode"),
+        wheels=tuple(joint_name(w.name) for w in shape.wheels if w.driven),
+        rollers=tuple(joint_name(w.name) for w in shape.wheels if not w.driven),
+        steering=tuple(joint_name(f"{w.name}_steering") for w in shape.wheels if w.steered),
+        spin=spin_inertia(robot, target),
+        slide=robot.model == "omni3",
+    )
 
 
-def body_box(robot: RobotConfig, target: TargetConfig) -> tuple[Vector, Vector]:
-    """Size and middle of the body [m], in the base frame: from the ground clearance up to the target."""
-    height = target.z_min - robot.ground_clearance
-    size = (robot.length, robot.track - robot.wheel_width - 0.004, height)
-    return size, (0.0, 0.0, robot.ground_clearance + 0.5 * height)
+def spin_inertia(robot: RobotConfig, target: TargetConfig) -> float:
+    """Of a wheel with rotor and gear of its motor, as seen from the wheel; 0 for the wheel's own [kg m^2].
+
+    The solver shares a sliding wheel's friction between along and across in the ratio of the masses that it moves
+    either way. Were a skid-steered wheel light, it would have hardly any friction left to drive with, where a real
+    one has the same in all directions.
+    """
+    if robot.model != "skid_steer":
+        return 0.0
+    load = 0.25 * (robot.mass + target.mass) + robot.wheel_mass
+    return ROTOR_SHARE * load * robot.wheel_radius**2
 
 
-def _add_target(link: ET.Element, target: TargetConfig) -> None:
+def joint_name(part: str) -> str:
+    """Name of a part's joint."""
+    return f"{part}_wheel_joint" if not part.endswith("_steering") else f"{part}_joint"
+
+
+def add_guards(base: ET.Element, shape: RobotShape) -> None:
+    """What touches walls in the wheels' place."""
+    guard = _cylinder(shape.wheel_radius - GUARD_GAP, shape.wheel_width)
+    for wheel in shape.wheels:
+        add_shape(
+            base, "collision", guard, (wheel.x, wheel.y, shape.wheel_radius), (0.5 * math.pi, 0, wheel.yaw)
+        )
+
+
+def add_target(link: ET.Element, target: TargetConfig) -> None:
     """The cylinder and its markers, on their mount."""
     x, y = target.mount
     z = 0.5 * (target.z_min + target.z_max)
     cylinder = _cylinder(target.radius, target.z_max - target.z_min)
-    _shape(link, "both", cylinder, (x, y, z), color=target.color, name="target")
+    add_shape(link, "both", cylinder, (x, y, z), color=target.color, name="target")
     reach = target.radius + target.marker_protrusion - 0.5 * MARKER_DEPTH
     marker = _box((MARKER_DEPTH, target.marker_width, target.marker_height))
     for index, (angle_deg, color) in enumerate(
@@ -65,27 +112,41 @@ def _add_target(link: ET.Element, target: TargetConfig) -> None:
     ):
         angle = (angle_deg + target.mount_yaw_deg) * DEG
         place = (x + reach * math.cos(angle), y + reach * math.sin(angle), z)
-        _shape(link, "visual", marker, place, (0, 0, angle), color=color, name=f"marker_{index}")
+        add_shape(link, "visual", marker, place, (0, 0, angle), color=color, name=f"marker_{index}")
 
 
-def _wheel(root: ET.Element, joint_name: str, y: float, robot: RobotConfig) -> None:
-    name = joint_name.removesuffix("_joint")
+def _wheel(root: ET.Element, wheel: Wheel, robot: RobotConfig) -> None:
+    place, parent = (wheel.x, wheel.y, robot.wheel_radius), "base"
+    if wheel.steered:
+        knuckle = ET.SubElement(root, "link", name=f"{wheel.name}_knuckle")
+        small = 0.4 * KNUCKLE_MASS * robot.wheel_radius**2
+        _inertia(knuckle, KNUCKLE_MASS, (0, 0, 0), (small, small, small))
+        name = joint_name(f"{wheel.name}_steering")
+        _joint(root, name, parent, f"{wheel.name}_knuckle", place, wheel.yaw, "0 0 1")
+        place, parent = (0.0, 0.0, 0.0), f"{wheel.name}_knuckle"
+    name = f"{wheel.name}_wheel"
     link = ET.SubElement(root, "link", name=name)
     across = 0.25 * robot.wheel_mass * robot.wheel_radius**2 + robot.wheel_mass * robot.wheel_width**2 / 12
     spin = 0.5 * robot.wheel_mass * robot.wheel_radius**2
     _inertia(link, robot.wheel_mass, (0, 0, 0), (across, spin, across))
     upright = (0.5 * math.pi, 0, 0)
     tyre = _cylinder(robot.wheel_radius, robot.wheel_width)
-    _shape(link, "visual", tyre, (0, 0, 0), upright, color=robot.wheel_color, name="tyre")
-    _shape(link, "collision", _sphere(robot.wheel_radius), (0, 0, 0))
-    joint = ET.SubElement(root, "joint", name=joint_name, type="continuous")
-    ET.SubElement(joint, "parent", link="base")
-    ET.SubElement(joint, "child", link=name)
-    ET.SubElement(joint, "origin", xyz=_text((0, y, robot.wheel_radius)))
-    ET.SubElement(joint, "axis", xyz="0 1 0")
+    add_shape(link, "visual", tyre, (0, 0, 0), upright, color=robot.wheel_color, name="tyre")
+    add_shape(link, "collision", sphere(robot.wheel_radius), (0, 0, 0))
+    _joint(root, joint_name(wheel.name), parent, name, place, 0.0 if wheel.steered else wheel.yaw, "0 1 0")
 
 
-def _base_inertia(
+def _joint(
+    root: ET.Element, name: str, parent: str, child: str, place: Sequence[float], yaw: float, axis: str
+) -> None:
+    joint = ET.SubElement(root, "joint", name=name, type="continuous")
+    ET.SubElement(joint, "parent", link=parent)
+    ET.SubElement(joint, "child", link=child)
+    ET.SubElement(joint, "origin", xyz=_text(place), rpy=_text((0, 0, yaw)))
+    ET.SubElement(joint, "axis", xyz=axis)
+
+
+def add_inertia(
     link: ET.Element,
     robot: RobotConfig,
     target: TargetConfig,
@@ -118,7 +179,7 @@ def _inertia(link: ET.Element, mass: float, com: Sequence[float], moments: Seque
     ET.SubElement(inertial, "inertia", ixx=ixx, iyy=iyy, izz=izz, ixy="0", ixz="0", iyz="0")
 
 
-def _shape(
+def add_shape(
     link: ET.Element,
     kind: str,
     geometry: ET.Element,
@@ -146,7 +207,8 @@ def _cylinder(radius: float, length: float) -> ET.Element:
     return ET.Element("cylinder", radius=repr(radius), length=repr(length))
 
 
-def _sphere(radius: float) -> ET.Element:
+def sphere(radius: float) -> ET.Element:
+    """A ball [m]."""
     return ET.Element("sphere", radius=repr(radius))
 
 

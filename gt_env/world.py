@@ -14,7 +14,7 @@ from estimators.poses import Pose2
 from gt_env.body import State
 from gt_env.config import EnvConfig
 from gt_env.engine import Engine
-from gt_env.robot import DifferentialRobot
+from gt_env.robot import make_robot
 from gt_env.scene import build_scene
 from gt_env.sensors.camera import Camera
 from gt_env.sensors.encoders import WheelEncoders
@@ -45,7 +45,7 @@ class World:
         self.config = config
         self.engine = Engine(config.physics, config.timing.tick)
         self.room = config.room.in_station_frame()
-        self.robot = DifferentialRobot(config)
+        self.robot = make_robot(config)
         self.lrf = LaserRangefinder(config.lrf, believed.lrf, make_ranging(config, self.engine))
         self.camera = Camera(config.camera)
         self._rendering = make_rendering(config, self.engine)

@@ -7,7 +7,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from estimators.calibration import DEG
+from estimators.kinematics import skid_steer_track
 from estimators.localizers.calibration import GyroCalibration, LidarCalibration, RobotCalibration
+from gt_env.config.sections import RobotConfig
 
 if TYPE_CHECKING:
     from gt_env.config.schema import EnvConfig
@@ -55,7 +57,7 @@ def robot_calibration(c: EnvConfig) -> RobotCalibration:
     left, right = (robot.wheel_radius * (1 + error) for error in encoders.radius_error)
     return RobotCalibration(
         wheel_radii=(left, right),
-        track=robot.track * (1 + encoders.track_error),
+        track=_turning_track(robot) * (1 + encoders.track_error),
         pulses_per_turn=robot.pulses_per_turn,
         radius_sigma=encoders.radius_sigma,
         track_sigma=encoders.track_sigma,
@@ -69,3 +71,10 @@ def robot_calibration(c: EnvConfig) -> RobotCalibration:
         ),
         lidar=LidarCalibration(mount=lidar.mount, noise_sigma=lidar.noise_sigma),
     )
+
+
+def _turning_track(robot: RobotConfig) -> float:
+    """Track of the robot with two driven wheels that turns as this one does [m]."""
+    if robot.model == "skid_steer":
+        return skid_steer_track(robot.track, robot.wheelbase)
+    return robot.track

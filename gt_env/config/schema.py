@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from dataclasses import asdict, field
 from typing import Any
 
-import numpy as np
 from pydantic import model_validator
 
 from estimators.calibration import DEG, Calibration
@@ -16,6 +15,7 @@ from estimators.poses import Pose2
 from estimators.room import Room
 from gt_env.config.merging import merge
 from gt_env.config.onboard import onboard_problems
+from gt_env.config.robots import robot_problems
 from gt_env.config.sections import (
     CameraConfig,
     LightConfig,
@@ -30,6 +30,7 @@ from gt_env.config.sections import (
     TimingConfig,
     section,
 )
+from gt_env.config.shape import robot_shape
 
 BELIEF_SECTIONS = ("room", "target", "lrf", "camera", "pan", "onboard")
 
@@ -129,7 +130,7 @@ def _problems(c: EnvConfig) -> Iterator[str]:
         )
     if not c.light.lamps:
         yield "light.lamps = []: must hold at least one lamp; it may have intensity 0"
-    yield from _robot_problems(c)
+    yield from robot_problems(c.robot, c.target)
     yield from _lrf_problems(c)
     yield from _camera_problems(c)
     yield from onboard_problems(c)
@@ -144,6 +145,11 @@ def _camera_problems(c: EnvConfig) -> Iterator[str]:
             f"{1 / camera.rate:g} s"
         )
     if camera.renderer == "fast":
+        if camera.enabled and c.robot.model != "differential":
+            yield (
+                f"robot.model = {c.robot.model!r}: camera.renderer = 'fast' draws the 'differential' one only: use "
+                f"camera.renderer = 'tiny'"
+            )
         if camera.roll_deg and camera.enabled:
             # Its columns are upright planes; a rolled pixel lies across several of them.
             yield (
@@ -183,20 +189,6 @@ def _lrf_problems(c: EnvConfig) -> Iterator[str]:
                 f"room.obstacles.{i} = {obstacle.file!r}: lrf.backend = 'closed_form' cannot range a URDF: "
                 f"use lrf.backend = 'bullet', or an obstacle of shape 'box' or 'cylinder'"
             )
-
-
-def _robot_problems(c: EnvConfig) -> Iterator[str]:
-    """What would give the body a negative size."""
-    if c.robot.track <= c.robot.wheel_width + 0.004:
-        yield (
-            f"robot.track = {c.robot.track}: must be above robot.wheel_width = {c.robot.wheel_width} "
-            f"and 4 mm of air"
-        )
-    if c.target.z_min <= c.robot.ground_clearance:
-        yield (
-            f"target.z_min = {c.target.z_min}: must be above robot.ground_clearance = "
-            f"{c.robot.ground_clearance}, the target stands on the robot's body"
-        )
 
 
 def _timing_problems(c: EnvConfig) -> Iterator[str]:
@@ -253,9 +245,7 @@ def pose_problem(c: EnvConfig, room: Room, pose: Pose2) -> str | None:
             f"the target's axis must be inside the room and at least target.radius = {c.target.radius} m "
             f"from every wall, it is at {clearance:.3f} m"
         )
-    half_x = max(0.5 * c.robot.length, c.robot.wheel_radius)
-    half_y = 0.5 * (c.robot.track + c.robot.wheel_width)
-    for corner in pose.apply(np.array([[i * half_x, j * half_y] for i in (-1, 1) for j in (-1, 1)])):
+    for corner in pose.apply(robot_shape(c.robot, c.target).corners):
         if not room.contains(corner):
             return f"the robot's corner at ({corner[0]:.3f}, {corner[1]:.3f}) must be inside the room"
     return None

@@ -12,6 +12,7 @@ from estimators.errors import ConfigError
 from estimators.room import Room
 from gt_env.config import EnvConfig
 from gt_env.config.sections import Color
+from gt_env.config.shape import CASTER_GAP, CASTER_RADIUS
 from gt_env.fast_camera.compiling import COMPILED
 from gt_env.fast_camera.light import planck_gain
 from gt_env.fast_camera.solids import (
@@ -23,7 +24,6 @@ from gt_env.fast_camera.solids import (
     obstacle_corners,
     rectangle,
 )
-from gt_env.robot_model import CASTER_GAP, CASTER_RADIUS
 from gt_env.scene import STATION_COLOR
 from gt_env.walls import wall_corners
 

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from estimators.calibration import DEG
 from estimators.poses import Array
 from gt_env.config import EnvConfig
+from gt_env.config.shape import CASTER_RADIUS, robot_shape
 from gt_env.engine import Engine
-from gt_env.robot_model import CASTER_GAP, CASTER_RADIUS, body_box
 from gt_env.sensors.lrf import Ranging, beam_bearings
 from gt_env.sensors.plane import Disc, Part, PlaneRanging, Rectangle
 
@@ -72,15 +72,14 @@ def robot_parts(config: EnvConfig, z: float) -> Iterator[Part]:
     robot, target = config.robot, config.target
     if target.z_min < z < target.z_max:
         yield Disc(x=target.mount[0], y=target.mount[1], radius=target.radius)
-    (length, width, height), (_, _, middle) = body_box(robot, target)
-    if abs(z - middle) < 0.5 * height:
-        yield Rectangle(x=0.0, y=0.0, half_x=0.5 * length, half_y=0.5 * width)
+    shape = robot_shape(robot, target)
+    length, width, height = shape.size
+    if abs(z - shape.middle[2]) < 0.5 * height:
+        yield Rectangle(x=shape.middle[0], y=shape.middle[1], half_x=0.5 * length, half_y=0.5 * width)
     half = robot.wheel_radius**2 - (z - robot.wheel_radius) ** 2
-    for side in (1, -1):
-        if half > 0:
-            y = side * 0.5 * robot.track
-            yield Rectangle(x=0.0, y=y, half_x=half**0.5, half_y=0.5 * robot.wheel_width)
-        low = z - CASTER_RADIUS - CASTER_GAP
-        if abs(low) < CASTER_RADIUS:
-            x = side * (0.5 * robot.length - 1.5 * CASTER_RADIUS)
-            yield Disc(x=x, y=0.0, radius=(CASTER_RADIUS**2 - low**2) ** 0.5)
+    for wheel in shape.wheels if half > 0 else ():
+        # A steered wheel is taken for straight.
+        yield Rectangle(x=wheel.x, y=wheel.y, half_x=half**0.5, half_y=0.5 * robot.wheel_width, yaw=wheel.yaw)
+    for x, y, middle in shape.casters:
+        if abs(z - middle) < CASTER_RADIUS:
+            yield Disc(x=x, y=y, radius=(CASTER_RADIUS**2 - (z - middle) ** 2) ** 0.5)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import field
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -14,12 +14,23 @@ from gt_env.config.sections.fields import Color, NotNegative, Point, Positive, R
 
 @section
 class RobotConfig:
-    """A robot with two driven wheels and two casters; base frame in the middle of the axle.
+    """The robot. Its base frame lies on the floor in the middle of its wheels, with `ackermann` of its rear axle.
 
     Attributes:
+        model: `differential`: two driven wheels and two casters. `skid_steer`: four driven wheels, geared together on
+            each side. `ackermann`: a steered front axle, two driven rear wheels. `omni3`: three omnidirectional wheels.
+        urdf: A file that describes body and wheels instead of the built-in ones; looked for as it stands and among
+            those that come with pybullet. What the keys below say of its measures, the closed-form sensors take it for.
+        wheel_joints: Names of its wheels' joints: left, right; `skid_steer` front left, front right, rear left, rear
+            right; `ackermann` rear left, rear right, front left, front right; `omni3` front left, rear, front right.
+        steering_joints: Names of its steering joints with `ackermann`, left, right.
+        urdf_base: x, y, z of the base frame in the frame of the URDF's root [m].
         start: Where an episode starts [m], in the station's frame.
         start_yaw_deg: [deg].
-        track: Distance between the wheels' middles [m].
+        track: Distance between the middles of left and right wheels [m]; `omni3`: twice that to the middle.
+        wheelbase: Distance between front and rear axle [m].
+        max_steering_deg: [deg].
+        steering_rate_deg: How fast the wheels are steered [deg/s].
         wheel_radius: [m].
         wheel_width: [m].
         max_wheel_speed: No-load speed of the motors [rad/s]; an action of 1.
@@ -31,6 +42,9 @@ class RobotConfig:
         pulses_per_turn: Of the wheels' encoders.
         encoder_rate: [Hz].
         length: Of the body, along x [m].
+        width: Of the body [m]; 0 for what the wheels leave room for.
+        height: Upper end of the body above the floor [m]; 0 for up to the target.
+        body_x: How far the body's middle is ahead of the middle of the wheels [m].
         ground_clearance: Below the body [m].
         mass: Of the body, without wheels and target [kg].
         wheel_mass: Of each wheel [kg].
@@ -38,9 +52,17 @@ class RobotConfig:
         wheel_color: RGB of wheels and casters.
     """
 
+    model: Literal["differential", "skid_steer", "ackermann", "omni3"] = "differential"
+    urdf: str = ""
+    wheel_joints: tuple[str, ...] = ()
+    steering_joints: tuple[str, ...] = ()
+    urdf_base: tuple[Real, Real, Real] = (0.0, 0.0, 0.0)
     start: Point = (0.0, 2.0)
     start_yaw_deg: Real = 0.0
     track: Positive = 0.215
+    wheelbase: Positive = 0.12
+    max_steering_deg: Annotated[float, Field(strict=True, gt=0, le=60)] = 30.0
+    steering_rate_deg: Positive = 180.0
     wheel_radius: Positive = 0.045
     wheel_width: Positive = 0.014
     max_wheel_speed: Positive = 29.4
@@ -52,6 +74,9 @@ class RobotConfig:
     pulses_per_turn: Whole = 360
     encoder_rate: Positive = 20.0
     length: Positive = 0.19
+    width: NotNegative = 0.0
+    height: NotNegative = 0.0
+    body_x: Real = 0.0
     ground_clearance: Positive = 0.03
     mass: Positive = 2.0
     wheel_mass: Positive = 0.15
