@@ -10,9 +10,9 @@ from benchmarks.report.scores import Scores
 from benchmarks.report.tables import NONE, Table, number
 
 NOTE = (
-    "NEES: normalised estimation error squared, one sample of each run at a time drawn at random; in brackets, where "
-    f"the mean over the runs lies with {100 * CONFIDENCE:g} % if the stated covariance is right (chi squared); *: it "
-    "does not. Inside ellipse: share of all samples, with the standard error of the mean over runs."
+    "NEES: normalised estimation error squared, mean over the runs, one sample of each at a time drawn at random. "
+    f"honest: where it lies with {100 * CONFIDENCE:g} % if the stated covariance is right (chi squared); *: not there. "
+    "Inside ellipse: share of all samples, with the standard error of the mean over runs."
 )
 WHITE = (
     "An innovation is what a measurement says beyond what was expected; whitened, its values have mean square 1 and do "
@@ -22,15 +22,16 @@ WHITE = (
 
 def consistency_tables(scores: Scores) -> list[Table]:
     """NEES and coverage by situation and method, and the whiteness of innovations."""
-    rows = [
-        (f"{situation}, {method}", *_cells(found))
-        for situation, of in scores.consistency.items()
-        for method, found in of.items()
-    ]
+    rows = []
+    for situation, of in scores.consistency.items():
+        rows += [(situation, method, *_cells(found)) for method, found in of.items()]
+        if of:
+            rows.append((situation, "honest", *_honest(next(iter(of.values())))))
     inside = [f"inside {100 * level:g} %" for level in LEVELS]
     white = [
         (
-            f"{method}, {kind}s",
+            f"{kind}s",
+            method,
             str(w.n),
             number(w.square, 2),
             number(w.correlation[0], 3),
@@ -41,13 +42,18 @@ def consistency_tables(scores: Scores) -> list[Table]:
         for kind, w in of.items()
     ]
     runs = {s: next(iter(of.values())).nees["position"].runs for s, of in scores.consistency.items() if of}
-    said = ", ".join(f"{n} runs {situation}" for situation, n in runs.items())
+    said = ", ".join(f"{situation} {n}" for situation, n in runs.items())
     tables = []
     if rows:
-        head = ("", *(f"NEES {name} ({part.stop - part.start})" for name, part in PARTS.items()), *inside)
+        head = (
+            "",
+            "method",
+            *(f"NEES {name} ({part.stop - part.start})" for name, part in PARTS.items()),
+            *inside,
+        )
         tables.append(
             Table(
-                title=f"Stated and actual errors: {said}",
+                title=f"Stated and actual errors (independent runs: {said})",
                 head=head,
                 rows=tuple(rows),
                 note=NOTE,
@@ -58,7 +64,7 @@ def consistency_tables(scores: Scores) -> list[Table]:
         tables.append(
             Table(
                 title="Innovations while driving",
-                head=("", "n", "mean square", "correlation, lag 1", "largest of 10 lags", "bound"),
+                head=("", "method", "n", "mean square", "correlation, lag 1", "largest of 10 lags", "bound"),
                 rows=tuple(white),
                 note=WHITE,
                 section="consistency",
@@ -97,6 +103,10 @@ def _cells(found: Consistency) -> tuple[str, ...]:
 
 
 def _nees(n: Nees) -> str:
-    if n.mean is None:
-        return NONE
-    return f"{n.mean:.2f}{'' if n.holds else '*'} [{n.low:.2f}, {n.high:.2f}]"
+    return NONE if n.mean is None else f"{n.mean:.2f}{'' if n.holds else '*'}"
+
+
+def _honest(found: Consistency) -> tuple[str, ...]:
+    """What a method's figures would be if it knew its errors."""
+    nees = (f"{found.nees[name].low:.2f}-{found.nees[name].high:.2f}" for name in PARTS)
+    return *nees, *(f"{100 * level:g} %" for level in LEVELS)

@@ -116,7 +116,7 @@ def score_validation(validation: Validation) -> Scores:
     """Score every track."""
     v, methods = validation, validation.plan.methods
     travels = [v.moving[d] for d in TRAVELS if d in v.moving]
-    situations = {f"at rest, {kind}": of for kind, of in v.rest.items()}
+    situations = {f"rest-{kind}": of for kind, of in v.rest.items()}
     if v.driving:
         situations["driving"] = v.driving
     rng = np.random.default_rng(v.plan.seed)

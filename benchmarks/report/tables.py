@@ -9,7 +9,6 @@ from benchmarks.published import (
     DATA_SHEETS,
     THESIS,
     THESIS_MOVING,
-    PublishedDrive,
     PublishedPoint,
     thesis_average_mae,
 )
@@ -17,6 +16,8 @@ from benchmarks.report.scores import DEGREES, MM, TO_ERROR_UNITS, TO_POSE_UNITS,
 from estimators.poses import wrap_angle
 
 NONE = "-"
+TEXT = frozenset({"what", "method"})
+"""Columns of words, by their heads."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,9 +27,9 @@ class Table:
     Attributes:
         title: Of the table.
         head: One word or two per column.
-        rows: Cells; the first is a name, the others are numbers.
+        rows: Cells; the first is a name, those under `TEXT` are words, the others numbers.
         published: Columns that hold what others published.
-        last_is_total: Whether the last row sums the others up.
+        totals: How many rows at the end sum the others up.
         note: Below the table.
         section: Of the page.
     """
@@ -37,7 +38,7 @@ class Table:
     head: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     published: frozenset[int] = frozenset()
-    last_is_total: bool = False
+    totals: int = 0
     note: str = ""
     section: str = "results"
 
@@ -84,12 +85,12 @@ def all_tables(scores: Scores) -> list[Table]:
 def moving_table(scores: Scores) -> Table:
     """Errors of a moving target beside the largest ones that 5.2 gives."""
     rows = []
-    for method in scores.methods:
-        for drive, score in scores.moving[method].items():
-            printed = THESIS_MOVING.get(drive, PublishedDrive(figures=""))
+    for drive, printed in THESIS_MOVING.items():
+        for method in scores.methods:
+            score = scores.moving[method][drive]
             rows.append(
                 (
-                    drive if len(scores.methods) == 1 else f"{drive}, {method}",
+                    *named(drive, method, scores),
                     number(times(score.largest[0], MM), 0),
                     number(times(printed.max_x, MM), 0),
                     number(times(score.largest[1], MM), 0),
@@ -99,31 +100,21 @@ def moving_table(scores: Scores) -> Table:
                     number(times(score.max_xy, MM), 0),
                     number(times(score.rmse_xy, MM), 1),
                     number(times(score.mae[2], DEGREES), 2),
-                    number(times(score.p99_yaw, DEGREES), 2),
-                    number(times(score.valid_later, 100), 1),
                 )
             )
+    head = (*named("drive", "method", scores), "max x", "thesis", "max y", "thesis", "max angle", "thesis")
     return Table(
         title="Moving target: largest and typical errors [mm, mm, deg] — 5.2",
-        head=(
-            "drive",
-            "max x",
-            "thesis",
-            "max y",
-            "thesis",
-            "max angle",
-            "thesis",
-            "max xy",
-            "RMSE xy",
-            "MAE angle",
-            "99 % angle",
-            "valid [%]",
-        ),
+        head=(*head, "max xy", "RMSE xy", "MAE angle"),
         rows=tuple(rows),
-        published=frozenset({2, 4, 6}),
-        note='The thesis prints "0.12 cm" and "0.11 cm" for the path; metres are meant. 99 %: of the errors of the '
-        "angle are smaller. valid: share of the time from 2 s after the start.",
+        published=frozenset(i for i, name in enumerate(head) if name == "thesis"),
+        note='The thesis prints "0.12 cm" and "0.11 cm" for the path; metres are meant.',
     )
+
+
+def named(name: str, method: str, scores: Scores) -> tuple[str, ...]:
+    """The first cells of a row: the method has one of its own if there are several."""
+    return (name,) if len(scores.methods) == 1 else (name, method)
 
 
 def accuracy_table(scores: Scores) -> Table:
@@ -178,26 +169,25 @@ def _per_point(
     decimals: tuple[int, int, int],
     extra: dict[str, PublishedPoint] | None = None,
 ) -> Table:
-    """A table with a group of columns for each of x, y, angle: every method, then the thesis."""
-    methods = scores.methods
-    names = ["ours"] if len(methods) == 1 else list(methods)
-    head, published = ["point"], set()
+    """A table with columns for x, y and angle, ours beside the thesis's; a row per point and method."""
+    head = list(named("point", "method", scores))
+    published = {len(head) + 1, len(head) + 3, len(head) + 5}
     for coordinate in ("x", "y", "angle"):
-        head += [f"{coordinate} {name}" for name in names] + [f"table {table}"]
-        published.add(len(head) - 1)
+        head += [coordinate, f"table {table}"]
     rows = []
     for point, row in (THESIS | (extra or {})).items():
-        theirs, cells = printed(row), [point]
-        for i in range(3):
-            cells += [number(ours[m][point][i], decimals[i]) for m in methods]
-            cells.append(number(theirs[i], decimals[i]))
-        rows.append(tuple(cells))
+        theirs = printed(row)
+        for method in scores.methods:
+            cells = list(named(point, method, scores))
+            for i in range(3):
+                cells += [number(ours[method][point][i], decimals[i]), number(theirs[i], decimals[i])]
+            rows.append(tuple(cells))
     return Table(
         title=title,
         head=tuple(head),
         rows=tuple(rows),
         published=frozenset(published),
-        last_is_total=bool(extra),
+        totals=len(extra or {}) * len(scores.methods),
     )
 
 

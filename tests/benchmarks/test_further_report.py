@@ -109,7 +109,7 @@ def test_tables_are_rectangular_and_the_summary_has_a_column_for_each_method(val
     for table in tables:
         assert {len(row) for row in table.rows} == {len(table.head)}
     sections = {table.section for table in tables}
-    assert sections == {"results", "limits", "consistency", "stress", "summary"}
+    assert sections == {"results", "moving", "limits", "consistency", "stress", "summary"}
     summary = tables[-1]
     assert summary.head[1:] == METHODS
     at_rest = next(row for row in summary.rows if row[0].startswith("path, tour, figure of eight: RMSE"))
