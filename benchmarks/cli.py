@@ -11,6 +11,7 @@ import typer
 from rich.console import Console
 
 from benchmarks.commands.bench import bench
+from benchmarks.commands.calibrate import calibrate
 from benchmarks.commands.play import play
 from benchmarks.commands.replay import replay
 from benchmarks.commands.score import score
@@ -48,6 +49,7 @@ def _interruptible(command: Command) -> Command:
 app.command()(_interruptible(validate))
 app.command()(_interruptible(replay))
 app.command()(_interruptible(score))
+app.command()(_interruptible(calibrate))
 app.command()(_interruptible(bench))
 app.command()(play)  # it has recordings to save, and says itself what became of them
 

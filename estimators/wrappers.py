@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any, SupportsFloat
 
 import gymnasium as gym
 from gymnasium.utils import RecordConstructorArgs
 
 from estimators.calibration import Calibration
+from estimators.calibration_file import CalibrationFile, read_calibration
 from estimators.errors import ConfigError
 from estimators.localizers import Guarded, embedded_localizer
 from estimators.localizers.guard import ROBOT
@@ -79,10 +81,11 @@ class GroundTruthWrapper(EstimateWrapper):
         env: An environment of this project (its `unwrapped` has `measurements`).
         method: One of `estimators.METHODS`.
         name: Key in `info`.
-        calibration: What the estimator believes; None takes what the environment's configuration says.
+        calibration: What the estimator believes, or a file of `gt-env calibrate` to lay over what the environment's
+            configuration believes; None takes the latter as it is.
 
     Raises:
-        ConfigError: If the name is taken or reserved, or the method unknown.
+        ConfigError: If the name is taken or reserved, the method unknown, or the file not one for this station.
     """
 
     hears = STATION
@@ -92,7 +95,7 @@ class GroundTruthWrapper(EstimateWrapper):
         env: gym.Env[Any, Any],
         method: str = "fused",
         name: str = "gt",
-        calibration: Calibration | None = None,
+        calibration: Calibration | Path | str | None = None,
     ) -> None:
         RecordConstructorArgs.__init__(self, method=method, name=name, calibration=calibration)
         gym.Wrapper.__init__(self, env)
@@ -100,18 +103,27 @@ class GroundTruthWrapper(EstimateWrapper):
         self.name = name
         self.method = method
         base: Any = env.unwrapped
-        self._given = calibration
-        self._believed: Calibration = calibration or base.believed_calibration
-        self.estimator = ground_truth_estimator(method, self._believed)
+        self._given = read_calibration(calibration) if isinstance(calibration, Path | str) else calibration
+        self._told: Calibration = base.believed_calibration
+        self.estimator = ground_truth_estimator(method, self._believed())
         self.estimate = PoseEstimate.unknown()
 
     def _start(self, info: dict[str, Any]) -> None:
         base: Any = self.env.unwrapped
-        if self._given is None and base.believed_calibration is not self._believed:
+        if not isinstance(self._given, Calibration) and base.believed_calibration is not self._told:
             # The station stands in another room now, and was told so.
-            self._believed = base.believed_calibration
-            self.estimator = ground_truth_estimator(self.method, self._believed)
+            self._told = base.believed_calibration
+            self.estimator = ground_truth_estimator(self.method, self._believed())
         self.estimator.reset()
+
+    def _believed(self) -> Calibration:
+        match self._given:
+            case None:
+                return self._told
+            case CalibrationFile():
+                return self._given.over(self._told)
+            case Calibration():
+                return self._given
 
 
 class LocalizerWrapper(EstimateWrapper):

@@ -9,8 +9,9 @@ from typing import Annotated
 import typer
 
 from benchmarks.engines import ENGINES
+from estimators.calibration_file import read_calibration
 from estimators.errors import MissingExtraError
-from gt_env.config import EnvConfig, load_config, parse_override
+from gt_env.config import EnvConfig, believing, load_config, parse_override
 
 ConfigOption = Annotated[
     str, typer.Option("--config", metavar="NAME_OR_FILE", help="A preset's name or a TOML file.")
@@ -38,11 +39,43 @@ AddressOption = Annotated[
 NoFiguresOption = Annotated[
     bool, typer.Option("--no-figures", help="Write report.json only; needs no plotting packages.")
 ]
+CalibrationOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--calibration",
+        metavar="FILE",
+        help="What `gt-env calibrate` found, to be believed over the configuration.",
+    ),
+]
+BearingIncrementOption = Annotated[
+    float | None, typer.Option(help="Text log or folder: angle between ranges [deg].")
+]
+BearingMinOption = Annotated[
+    float | None, typer.Option(help="Text log or folder: bearing of the first range [deg].")
+]
+RateOption = Annotated[
+    float | None, typer.Option(help="Text log, or folder without stamps: scans per second.")
+]
+DataConfigOption = Annotated[
+    str | None,
+    typer.Option(
+        "--config",
+        metavar="NAME_OR_FILE",
+        help="A preset's name or a TOML file, instead of the configuration that came with the data.",
+    ),
+]
 
 
-def configuration(config: str, overrides: list[str] | None) -> EnvConfig:
-    """The configuration that `--config` and `--set` ask for."""
-    return load_config(config, dict(parse_override(text) for text in overrides or ()))
+def configuration(config: str, overrides: list[str] | None, calibration: Path | None = None) -> EnvConfig:
+    """The configuration that `--config`, `--set` and `--calibration` ask for."""
+    return calibrated(
+        load_config(config, dict(parse_override(text) for text in overrides or ())), calibration
+    )
+
+
+def calibrated(config: EnvConfig, calibration: Path | None) -> EnvConfig:
+    """A configuration that believes a calibration file, if there is one."""
+    return config if calibration is None else believing(config, read_calibration(calibration))
 
 
 def require_report_extra() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -12,7 +13,16 @@ from rich.markup import escape
 from rich.table import Table
 
 from benchmarks import metrics
-from benchmarks.commands.options import OutOption, SetOption
+from benchmarks.commands.options import (
+    BearingIncrementOption,
+    BearingMinOption,
+    CalibrationOption,
+    DataConfigOption,
+    OutOption,
+    RateOption,
+    SetOption,
+    calibrated,
+)
 from benchmarks.figures import require_matplotlib
 from benchmarks.output import check_writable, staged
 from benchmarks.progress import tracked
@@ -36,24 +46,12 @@ def replay(
     method: Annotated[
         str, typer.Option("--method", help=f"Ground-truth method: {', '.join(METHODS)}.")
     ] = "thesis",
-    bearing_increment_deg: Annotated[
-        float | None, typer.Option(help="Text log or folder: angle between ranges [deg].")
-    ] = None,
-    bearing_min_deg: Annotated[
-        float | None, typer.Option(help="Text log or folder: bearing of the first range [deg].")
-    ] = None,
-    rate: Annotated[
-        float | None, typer.Option(help="Text log, or folder without stamps: scans per second.")
-    ] = None,
-    config: Annotated[
-        str | None,
-        typer.Option(
-            "--config",
-            metavar="NAME_OR_FILE",
-            help="A preset's name or a TOML file, instead of the configuration that came with the data.",
-        ),
-    ] = None,
+    bearing_increment_deg: BearingIncrementOption = None,
+    bearing_min_deg: BearingMinOption = None,
+    rate: RateOption = None,
+    config: DataConfigOption = None,
     overrides: SetOption = None,
+    calibration: CalibrationOption = None,
     out: OutOption = Path("out/replay"),
 ) -> None:
     """Run recorded measurements through a ground-truth method; write the poses and a figure."""
@@ -63,9 +61,10 @@ def replay(
     )
     values = dict(parse_override(text) for text in overrides or ())
     recording, believed = open_source(file, options, config, values)
+    believed = calibrated(believed, calibration).believed()
     check_writable(out)
-    calibration = believed.calibration()
-    result = replay_recording(recording, method, calibration, lambda items: tracked(items, "replay"))
+    watch = partial(tracked, description="replay")
+    result = replay_recording(recording, method, believed.calibration(), watch)
     report = summary(recording, result, believed)
     with staged(out) as folder:
         _write(folder, recording, result, report, believed)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import Annotated
 
@@ -10,6 +11,7 @@ from rich.console import Console
 
 from benchmarks.commands.options import (
     AddressOption,
+    CalibrationOption,
     ConfigOption,
     EngineOption,
     JobsOption,
@@ -53,6 +55,7 @@ def validate(
     engine: EngineOption = "loky",
     address: AddressOption = None,
     method: MethodOption = None,
+    calibration: CalibrationOption = None,
     out: OutOption = Path("out/validate"),
     no_figures: NoFiguresOption = False,
     cameras: CamerasOption = False,
@@ -69,7 +72,7 @@ def validate(
     from benchmarks.rollout import watched_arena
     from benchmarks.validation import plan_validation, run_validation
 
-    methods, settings = _methods(method), configuration(config, overrides)
+    methods, settings = _methods(method), configuration(config, overrides, calibration)
     place = Engine(name=engine, address=address)
     if not no_figures:
         require_report_extra()
@@ -87,6 +90,7 @@ def validate(
     command = validate_command(
         config, overrides or [], seed, methods, quick=quick, cameras=cameras, stress=stress
     )
+    command += "" if calibration is None else f" --calibration {shlex.quote(str(calibration))}"
     setup = describe(plan, command)
     if failed is not None:
         # What was simulated is kept; the tables and figures want all of it.

@@ -55,6 +55,11 @@ class MessageLog(Sequence[Message]):
         return [m for m in self.stored if isinstance(m, kind)]
 
     @property
+    def frames(self) -> MessageLog:
+        """The camera's frames."""
+        return MessageLog(m for m in self.stored if isinstance(m, StoredFrame))
+
+    @property
     def frame_count(self) -> int:
         """How many camera frames there are."""
         return sum(isinstance(m, StoredFrame) for m in self.stored)

@@ -1,0 +1,40 @@
+"""What one would see if the station were as it is believed: the same measurements before and after."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from estimators.poses import Array
+from estimators.self_calibration.joint import Evidence, Solution
+from estimators.self_calibration.quantities import Q
+from estimators.self_calibration.rows import expected_columns
+from estimators.self_calibration.walls import expected_ranges
+
+
+def wall_residuals(evidence: Evidence, values: Array) -> Array:
+    """Mean range along each beam less the expected one (B,) [m], for quantities (10,)."""
+    walls = evidence.walls
+    residuals: Array = walls.means - expected_ranges(walls.room, walls.bearings, values)[0]
+    return residuals
+
+
+def column_residuals(evidence: Evidence, solution: Solution, values: Array) -> Array:
+    """Columns of the target less those (K,) [px] where quantities (10,) would have it, by LRF and camera."""
+    seen = evidence.sightings
+    track = solution.knots.at(solution.track, seen.stamps - values[Q.CLOCK_OFFSET])
+    found = _as_seen_with(evidence, solution.values, values, track)
+    focal = 0.5 * evidence.image_height / np.tan(0.5 * values[Q.FOV])
+    residuals: Array = seen.columns - expected_columns(found, seen.pans, values, focal)
+    return residuals
+
+
+def _as_seen_with(evidence: Evidence, true: Array, values: Array, points: Array) -> Array:
+    """Where the LRF would put targets at points (N, 2) if it were as `values` say."""
+    c, s = np.cos(true[Q.LRF_YAW]), np.sin(true[Q.LRF_YAW])
+    local = (points - true[[Q.LRF_X, Q.LRF_Y]]) @ np.array([[c, -s], [s, c]])
+    by_radius = float(np.median(evidence.places.by_radius))
+    longer = true[Q.RANGE_BIAS] - values[Q.RANGE_BIAS] + by_radius * (values[Q.RADIUS] - true[Q.RADIUS])
+    local = local * (1 + longer / np.hypot(*local.T))[:, None]
+    c, s = np.cos(values[Q.LRF_YAW]), np.sin(values[Q.LRF_YAW])
+    placed: Array = local @ np.array([[c, s], [-s, c]]) + values[[Q.LRF_X, Q.LRF_Y]]
+    return placed
