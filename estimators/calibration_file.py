@@ -11,12 +11,12 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any, Final, Self
+from typing import Annotated, Any, Final, Self
 
 import numpy as np
 import tomli_w
 from numpy.typing import NDArray
-from pydantic import ConfigDict, TypeAdapter, ValidationError
+from pydantic import ConfigDict, Field, ValidationError
 from pydantic.dataclasses import dataclass as checked
 
 from estimators.calibration import Calibration
@@ -28,7 +28,10 @@ FORMAT: Final = "gt-env calibration"
 VERSION: Final = 1
 TOLERANCE: Final = 1e-3
 """Corners, heights and angles of one and the same station differ by less [m, rad]."""
-_STRICT: Final = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+_STRICT: Final = ConfigDict(extra="forbid")
+_Real = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+_Whole = Annotated[int, Field(strict=True, ge=1)]
+_Text = Annotated[str, Field(strict=True)]
 
 
 @checked(frozen=True, kw_only=True, config=_STRICT)
@@ -42,19 +45,19 @@ class Station:
         marker_angles: Of the target's markers [rad].
     """
 
-    room: list[list[float]]
-    image: list[int]
-    target_height: list[float]
-    marker_angles: list[float]
+    room: list[tuple[_Real, _Real]]
+    image: tuple[_Whole, _Whole]
+    target_height: tuple[_Real, _Real]
+    marker_angles: list[_Real]
 
     @classmethod
     def of(cls, calibration: Calibration) -> Self:
         """The station and target of a calibration."""
         camera, target = calibration.camera, calibration.target
         return cls(
-            room=calibration.room.vertices.tolist(),
-            image=[camera.width, camera.height],
-            target_height=[target.z_min, target.z_max],
+            room=[(x, y) for x, y in calibration.room.vertices.tolist()],
+            image=(camera.width, camera.height),
+            target_height=(target.z_min, target.z_max),
             marker_angles=list(target.marker_angles),
         )
 
@@ -71,18 +74,15 @@ class Station:
 class _Content:
     """The file as it is written; `lrf`, `camera` and `target` hold quantities by key."""
 
-    format: str
-    version: int
-    recording: str = ""
+    format: _Text
+    version: _Whole
+    recording: _Text = ""
     station: Station
-    lrf: dict[str, float] = field(default_factory=dict)
-    camera: dict[str, float] = field(default_factory=dict)
-    target: dict[str, float] = field(default_factory=dict)
-    standard_errors: dict[str, float] = field(default_factory=dict)
-    not_observable: list[str] = field(default_factory=list)
-
-
-_ADAPTER: Final = TypeAdapter(_Content)
+    lrf: dict[str, _Real] = field(default_factory=dict)
+    camera: dict[str, _Real] = field(default_factory=dict)
+    target: dict[str, _Real] = field(default_factory=dict)
+    standard_errors: dict[str, _Real] = field(default_factory=dict)
+    not_observable: list[_Text] = field(default_factory=list)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -173,7 +173,7 @@ def read_calibration(path: Path | str) -> CalibrationFile:
             f"{origin}: version = {content.get('version')!r}: this version of gt-env reads {VERSION}"
         )
     try:
-        read = _ADAPTER.validate_python(content)
+        read = _Content(**content)
     except ValidationError as error:
         raise ConfigError(f"{origin}: {_explain(error)}") from None
     values = {
