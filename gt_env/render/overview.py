@@ -11,9 +11,9 @@ from estimators.calibration import Calibration
 from estimators.messages import PoseEstimate
 from estimators.poses import Array, Pose2
 from estimators.thesis.position import ThesisLocalizer
-from gt_env.engine import View
 from gt_env.render.dashboard import Dashboard
 from gt_env.render.window import Window
+from gt_env.software_camera import View
 from gt_env.world import World
 
 OVERVIEW_FOV_DEG = 50.0

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from estimators.calibration import DEG
 from estimators.poses import Pose2
 from gt_env.config import EnvConfig
-from gt_env.engine import Engine, View
+from gt_env.engine import Engine
+from gt_env.software_camera import View
 
 Picture = NDArray[np.uint8]
 Made = Callable[[], Picture]
