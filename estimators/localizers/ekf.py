@@ -9,7 +9,7 @@ import numpy as np
 
 from estimators.localizers.beams import returned
 from estimators.localizers.calibration import START_SIGMAS, RobotCalibration
-from estimators.localizers.dead_reckoning import DeadReckoning
+from estimators.localizers.dead_reckoning import ERRORS, DeadReckoning
 from estimators.localizers.sequence import SeenScan, StepsAndScans
 from estimators.localizers.wheels import WheelStep
 from estimators.messages import Message, PoseEstimate
@@ -91,7 +91,7 @@ class EkfLocalizer:
     @property
     def wheel_errors(self) -> Array:
         """What was found of the relative errors of left radius, right radius and track (3,)."""
-        return self._filter.x[3:].copy()
+        return self._filter.x[ERRORS].copy()
 
     def update(self, message: Message) -> PoseEstimate | None:
         """Take a reading of the wheels or a scan of the lidar."""
@@ -115,17 +115,18 @@ class EkfLocalizer:
         good = np.abs(off) < GATE * spread  # False where either is NaN or infinite
         if np.count_nonzero(good) < FEWEST:
             return
-        x, information = prior, np.linalg.inv(P)
+        x = prior
         for _ in range(ITERATIONS):
             # A beam that grazes what it would meet from where the iteration leads counts no more.
             sound = good & np.isfinite(expected) & np.isfinite(H).all(axis=1)
             A, b = H[sound], off[sound] + H[sound] @ (x - prior)
-            Q = np.linalg.inv(information + A.T @ A / self._variance)
+            Q = self._filter.posterior(A.T @ A / self._variance)
             x = prior + Q @ (A.T @ b) / self._variance
             expected, H = self._linearised(x, seen.mount, bearings)
             off = measured - expected
-        self._filter.x, self._filter.P = x, 0.5 * (Q + Q.T)
+        self._filter.x, self._filter.P = x, Q
 
     def _linearised(self, x: Array, mount: Pose2, bearings: Array) -> tuple[Array, Array]:
-        ranges, by_pose = expected_ranges(self._room, x[:3], mount, bearings)
-        return ranges, np.column_stack([by_pose, np.zeros((len(ranges), len(x) - 3))])
+        pose, by_state = self._filter.pose(x)
+        ranges, by_pose = expected_ranges(self._room, pose, mount, bearings)
+        return ranges, by_pose @ by_state

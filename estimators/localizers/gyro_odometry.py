@@ -158,5 +158,5 @@ class GyroOdometryLocalizer:
         P = self._P[:3, :3].copy()
         c, s = math.cos(self._x[YAW]), math.sin(self._x[YAW])
         ahead = np.array([c, s, 0.0])
-        P += self._model.counting_covariance()[0, 0] * np.outer(ahead, ahead)
+        P += 0.5 * self._model.phase_variance * np.outer(ahead, ahead)
         return PoseEstimate(stamp=stamp, pose=Pose2.of(self._x[:3]), covariance=0.5 * (P + P.T))

@@ -71,18 +71,15 @@ class ScanMatchingLocalizer:
         if self._reference is None:
             self._reference = ReferenceScan.of(points, self._noise_sigma)
             return
-        x, P = self._filter.x, self._filter.P
-        found = align(self._reference, points, x[:3], P[:3, :3], self._noise_sigma)
+        (pose, G), P = self._filter.pose(), self._filter.P
+        found = align(self._reference, points, pose, G @ P @ G.T, self._noise_sigma)
         if found is not None:
-            H = np.zeros((3, len(x)))
-            H[:, :3] = np.eye(3)
-            Q = np.linalg.inv(np.linalg.inv(P) + H.T @ found.information @ H)
             # `align` has already weighed prior and pairs for the pose; what else is in the state follows it.
-            x = x + P[:, :3] @ np.linalg.solve(P[:3, :3], found.pose - x[:3])
-            self._filter.x, self._filter.P = x, 0.5 * (Q + Q.T)
+            self._filter.x = self._filter.x + P @ G.T @ np.linalg.solve(G @ P @ G.T, found.pose - pose)
+            self._filter.P = self._filter.posterior(G.T @ found.information @ G)
             by_wheels = np.diag(1.0 / np.square(WHEELS_ALONE))
             self._reference_covariance = np.asarray(np.linalg.inv(found.information + by_wheels), float)
-        far = math.hypot(x[0], x[1]) > FAR or abs(wrap_angle(float(x[2]))) > TURNED
+        far = math.hypot(pose[0], pose[1]) > FAR or abs(wrap_angle(float(pose[2]))) > TURNED
         if far or found is None or found.share < SHARE:
             self._take_keyframe(points)
 
@@ -90,9 +87,7 @@ class ScanMatchingLocalizer:
         """Go on from here: what is known of the wheels stays, what they have to do with the pose does not."""
         self._key, self._key_covariance = self._in_room()
         self._reference = ReferenceScan.of(points, self._noise_sigma)
-        self._filter.x[:3] = 0.0
-        self._filter.P[:3] = self._filter.P[:, :3] = 0.0
-        self._filter.P[:3, :3] = np.diag(np.square(START_SIGMAS))
+        self._filter.begin_here(START_SIGMAS)
         self._reference_covariance = np.zeros((3, 3))
 
     def _in_room(self) -> tuple[Pose2, Array]:

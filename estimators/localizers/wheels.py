@@ -117,7 +117,7 @@ class WheelModel:
 
     Two kinds of error: the radii and the track are not quite what the robot believes, which lasts; and the
     wheels slip, which is different over every `slip_length`. Over a way d the slip of one wheel adds the
-    variance slip_sigma^2 * slip_length * d. Pulses are counted, not rounded, so their error does not grow.
+    variance slip_sigma^2 * slip_length * d.
     """
 
     def __init__(self, robot: RobotCalibration) -> None:
@@ -125,8 +125,9 @@ class WheelModel:
         self._slip = robot.slip_sigma**2 * robot.slip_length
         self.parameter_variances = np.square([robot.radius_sigma, robot.radius_sigma, robot.track_sigma])
         mean_radius = 0.5 * sum(robot.wheel_radii)
-        self.pulse = 2 * math.pi / robot.pulses_per_turn * mean_radius
-        """Way of one pulse [m]."""
+        pulse = 2 * math.pi / robot.pulses_per_turn * mean_radius
+        self.phase_variance = pulse**2 / 6
+        """Of a way that is counted in whole pulses, beginning and ending anywhere within one [m^2]."""
         self.by_wheels = np.array([[0.5, 0.5], [-1 / robot.track, 1 / robot.track]])
         """Derivatives of way and turn with respect to the ways of left and right wheel (2, 2)."""
 
@@ -164,9 +165,5 @@ class WheelModel:
         For those that cannot keep the lasting errors apart and have them drawn anew at every step.
         """
         ways = np.abs([step.left, step.right])
-        variances = self._slip * ways + self.parameter_variances[:2] * ways**2 + self.pulse**2 / 6
+        variances = self._slip * ways + self.parameter_variances[:2] * ways**2 + self.phase_variance
         return np.asarray(np.sqrt(variances), float)
-
-    def counting_covariance(self) -> Array:
-        """Of way and turn since the start, because a wheel stands anywhere within a pulse (2, 2)."""
-        return np.asarray(self.pulse**2 / 6 * self.by_wheels @ self.by_wheels.T, float)
