@@ -63,7 +63,7 @@ class RobotCalibration:
     pulses_per_turn: int = 360
     radius_sigma: float = 0.005
     track_sigma: float = 0.005
-    slip_sigma: float = 0.02
+    slip_sigma: float = 0.0
     slip_length: float = 0.1
     gyro: GyroCalibration = field(default_factory=GyroCalibration)
     lidar: LidarCalibration = field(default_factory=LidarCalibration)

@@ -12,7 +12,7 @@ from estimators.localizers.calibration import START_SIGMAS, RobotCalibration
 from estimators.localizers.likelihood_field import DistanceField, inside
 from estimators.localizers.particles import effective_size, moments, spread_out, systematic, tempered
 from estimators.localizers.sequence import SeenScan, StepsAndScans
-from estimators.localizers.wheels import WheelModel, WheelStep, drive_arc
+from estimators.localizers.wheels import PARAMETERS, WheelModel, WheelStep, drive_arc
 from estimators.messages import Message, PoseEstimate
 from estimators.poses import Array, Pose2
 from estimators.room import Room
@@ -29,11 +29,15 @@ UNEXPLAINED: Final = 1e-3
 FOUND: Final = (0.25, 0.25)
 """Standard deviations of position [m] and yaw [rad] below which the robot knows where it is."""
 
+ROUGHENING: Final = 0.05
+"""What resampled particles are moved by, before they form one cloud [m, m, rad]."""
+
 
 class MonteCarloLocalizer:
     """A particle filter with a likelihood field (Thrun, Burgard and Fox, Probabilistic Robotics, 2005, 6.4, 8.3).
 
-    The wheels move every particle along an arc with slip and wheel errors of its own; a scan weighs it by the
+    Every particle has a pose and errors of radii and track of its own, and is moved by the wheels along an arc with
+    slip of its own; a scan weighs it by the
     distances from the ends of its beams to the nearest wall. Resampling is systematic, only when few particles
     carry most of the weight, and from a smooth density, so that copies do not pile up. While wheels stand
     still scans are skipped: they would only say the same again to particles that do not move.
@@ -69,11 +73,15 @@ class MonteCarloLocalizer:
         self._rng = np.random.default_rng(self._seed)
         self._sequence.reset()
         if self._start is None:
-            self._poses = self._anywhere(SEARCHERS)
+            poses = self._anywhere(SEARCHERS)
         else:
             noise = self._rng.standard_normal((self._count, 3)) * self._start_sigmas
-            self._poses = self._start.as_array() + noise
-        self._log_weights = np.zeros(len(self._poses))
+            poses = self._start.as_array() + noise
+        errors = self._rng.standard_normal((len(poses), PARAMETERS)) * np.sqrt(
+            self._model.parameter_variances
+        )
+        self._states = np.hstack([poses, errors])
+        self._log_weights = np.zeros(len(poses))
         self._moved = True
 
     def _anywhere(self, count: int) -> Array:
@@ -87,7 +95,7 @@ class MonteCarloLocalizer:
     @property
     def particles(self) -> Array:
         """Their poses (N, 3)."""
-        return self._poses.copy()
+        return self._states[:, :3].copy()
 
     def update(self, message: Message) -> PoseEstimate | None:
         """Take a reading of the wheels or a scan of the lidar."""
@@ -106,10 +114,12 @@ class MonteCarloLocalizer:
         if step.still:
             return
         self._moved = True
-        noise = self._model.step_sigmas(step) * self._rng.standard_normal((len(self._poses), 2))
-        left, right = step.left + noise[:, 0], step.right + noise[:, 1]
+        errors = self._states[:, 3:]
+        noise = self._model.step_sigmas(step) * self._rng.standard_normal((len(errors), 2))
+        left = step.left * (1.0 + errors[:, 0]) + noise[:, 0]
+        right = step.right * (1.0 + errors[:, 1]) + noise[:, 1]
         way, turn = self._model.by_wheels @ np.stack([left, right])
-        self._poses = drive_arc(self._poses, way, turn)
+        self._states[:, :3] = drive_arc(self._states[:, :3], way, turn / (1.0 + errors[:, 2]))
 
     def _weigh(self, seen: SeenScan) -> None:
         """Weigh every particle by a scan, and resample if need be."""
@@ -117,7 +127,7 @@ class MonteCarloLocalizer:
         if not len(points):
             return
         likelihoods = self._log_likelihoods(points)
-        n = len(self._poses)
+        n = len(self._states)
         power = tempered(likelihoods, self._log_weights, KEEP * n)
         self._log_weights = self._log_weights + power * likelihoods
         self._log_weights -= self._log_weights.max()
@@ -126,11 +136,12 @@ class MonteCarloLocalizer:
 
     def _log_likelihoods(self, points: Array) -> Array:
         """Of the ends of a scan's beams (K, 2), in the robot's frame [m], from every particle (N,)."""
-        c, s = np.cos(self._poses[:, 2, None]), np.sin(self._poses[:, 2, None])
+        x, y, yaw = self._states[:, :3].T[:, :, None]
+        c, s = np.cos(yaw), np.sin(yaw)
         ends = np.stack(
             [
-                self._poses[:, 0, None] + c * points[:, 0] - s * points[:, 1],
-                self._poses[:, 1, None] + s * points[:, 0] + c * points[:, 1],
+                x + c * points[:, 0] - s * points[:, 1],
+                y + s * points[:, 0] + c * points[:, 1],
             ],
             axis=-1,
         )
@@ -140,15 +151,13 @@ class MonteCarloLocalizer:
 
     def _resample(self) -> None:
         weights = self._weights()
-        _, covariance = moments(self._poses, weights)
-        found = _found(covariance)
-        count = self._count if found else len(self._poses)
-        self._poses = self._poses[systematic(weights, count, self._rng)]
+        found = _found(moments(self._states, weights)[1])
+        count = self._count if found else len(self._states)
+        self._states = self._states[systematic(weights, count, self._rng)]
         if found:
-            self._poses = spread_out(self._poses, self._rng)
+            self._states = spread_out(self._states, self._rng)
         else:  # several clouds: a kernel of their common width would blur them
-            sigmas = np.array([0.05, 0.05, 0.05])
-            self._poses = self._poses + sigmas * self._rng.standard_normal(self._poses.shape)
+            self._states[:, :3] += ROUGHENING * self._rng.standard_normal((count, 3))
         self._log_weights = np.zeros(count)
 
     def _weights(self) -> Array:
@@ -156,10 +165,10 @@ class MonteCarloLocalizer:
         return np.asarray(w / w.sum(), float)
 
     def _estimate(self, stamp: float) -> PoseEstimate:
-        mean, covariance = moments(self._poses, self._weights())
+        mean, covariance = moments(self._states, self._weights())
         found = _found(covariance)
         return PoseEstimate(
-            stamp=stamp, pose=Pose2.of(mean), covariance=covariance, valid=found, yaw_valid=found
+            stamp=stamp, pose=Pose2.of(mean[:3]), covariance=covariance[:3, :3], valid=found, yaw_valid=found
         )
 
 

@@ -24,15 +24,14 @@ def systematic(weights: Array, count: int, rng: np.random.Generator) -> NDArray[
     return np.asarray(np.searchsorted(cumulated, places, side="right").clip(0, len(weights) - 1), np.int64)
 
 
-def moments(poses: Array, weights: Array) -> tuple[Array, Array]:
-    """Mean (3,) and covariance (3, 3) of poses (N, 3) with weights (N,) that add up to 1.
+def moments(states: Array, weights: Array) -> tuple[Array, Array]:
+    """Mean (D,) and covariance (D, D) of states (N, D) with weights (N,) that add up to 1.
 
-    The mean yaw is that of the directions; deviations from it take the short way.
+    The third is a yaw: its mean is that of the directions, and deviations from it take the short way.
     """
-    x, y = weights @ poses[:, :2]
-    yaw = np.arctan2(weights @ np.sin(poses[:, 2]), weights @ np.cos(poses[:, 2]))
-    mean = np.array([x, y, yaw])
-    off = poses - mean
+    mean = np.asarray(weights @ states, float)
+    mean[2] = np.arctan2(weights @ np.sin(states[:, 2]), weights @ np.cos(states[:, 2]))
+    off = states - mean
     off[:, 2] = wrap_angle(off[:, 2])
     covariance = (weights[:, None] * off).T @ off
     return mean, np.asarray(0.5 * (covariance + covariance.T), float)
@@ -55,17 +54,22 @@ def tempered(log_likelihoods: Array, log_weights: Array, smallest: float) -> flo
     return low
 
 
-def spread_out(poses: Array, rng: np.random.Generator) -> Array:
-    """Resampled poses (N, 3) drawn from a smooth density around them instead of from points.
+def spread_out(states: Array, rng: np.random.Generator) -> Array:
+    """Resampled states (N, D) drawn from a smooth density around them instead of from points.
 
     A Gaussian kernel with the bandwidth that is best for a Gaussian (Silverman 1986), each particle moved
-    towards the mean first, so that mean and covariance stay as they are (West 1993).
+    towards the mean first, so that mean and covariance stay as they are (West 1993; Liu and West 2001, who
+    learn constants with it).
+
+    Args:
+        states: x, y, yaw and whatever else.
+        rng: Drawn from.
     """
-    n = len(poses)
-    mean, covariance = moments(poses, np.full(n, 1.0 / n))
-    bandwidth = (4.0 / (5.0 * n)) ** (1.0 / 7.0)  # three dimensions
-    off = poses - mean
+    n, d = states.shape
+    mean, covariance = moments(states, np.full(n, 1.0 / n))
+    bandwidth = (4.0 / ((d + 2) * n)) ** (1.0 / (d + 4))
+    off = states - mean
     off[:, 2] = wrap_angle(off[:, 2])
-    root = np.linalg.cholesky(covariance + 1e-12 * np.eye(3))
-    noise = rng.standard_normal((n, 3)) @ root.T
+    root = np.linalg.cholesky(covariance + 1e-12 * np.eye(d))
+    noise = rng.standard_normal((n, d)) @ root.T
     return np.asarray(mean + np.sqrt(1.0 - bandwidth**2) * off + bandwidth * noise, float)

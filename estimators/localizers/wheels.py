@@ -160,10 +160,6 @@ class WheelModel:
         return np.asarray(self.by_wheels * variances @ self.by_wheels.T, float)
 
     def step_sigmas(self, step: WheelStep) -> Array:
-        """Standard deviations (2,) of the ways of left and right wheel within one step [m], all errors included.
-
-        For those that cannot keep the lasting errors apart and have them drawn anew at every step.
-        """
+        """Standard deviations (2,) of the ways of left and right wheel within one step, slip and pulses [m]."""
         ways = np.abs([step.left, step.right])
-        variances = self._slip * ways + self.parameter_variances[:2] * ways**2 + self.phase_variance
-        return np.asarray(np.sqrt(variances), float)
+        return np.asarray(np.sqrt(self._slip * ways + self.phase_variance), float)

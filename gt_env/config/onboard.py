@@ -14,6 +14,9 @@ from gt_env.config.sections import RobotConfig
 if TYPE_CHECKING:
     from gt_env.config.schema import EnvConfig
 
+LEAST_SLIP = 0.005
+"""What a robot takes for its slip where it knows of none: nothing rolls perfectly."""
+
 
 def onboard_problems(c: EnvConfig) -> Iterator[str]:
     """What does not fit; each names key, value and what is allowed."""
@@ -59,10 +62,11 @@ def robot_calibration(c: EnvConfig) -> RobotCalibration:
         wheel_radii=(left, right),
         track=_turning_track(robot) * (1 + encoders.track_error),
         pulses_per_turn=robot.pulses_per_turn,
-        radius_sigma=encoders.radius_sigma,
+        # Slip that lasts cannot be told from a wheel that is smaller.
+        radius_sigma=math.hypot(encoders.radius_sigma, robot.slip),
         track_sigma=encoders.track_sigma,
-        slip_sigma=encoders.slip_sigma,
-        slip_length=encoders.slip_length,
+        slip_sigma=encoders.slip_sigma or max(robot.slip_sigma, LEAST_SLIP),
+        slip_length=robot.slip_length,
         gyro=GyroCalibration(
             walk=imu.gyro_walk_deg * DEG,
             bias_sigma=math.hypot(imu.gyro_bias_deg, imu.gyro_bias_sigma_deg) * DEG,

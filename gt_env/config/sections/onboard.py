@@ -25,16 +25,14 @@ class EncodersConfig:
         track_error: The same of the track.
         radius_sigma: What the robot takes for the standard deviation of these errors of each wheel.
         track_sigma: And of the track.
-        slip_sigma: What it takes for the standard deviation of a wheel's slip, as a fraction of its way.
-        slip_length: Over which way slip stays the same [m].
+        slip_sigma: What it takes for `robot.slip_sigma`; None if it knows that.
     """
 
     radius_error: tuple[Error, Error] = (0.0, 0.0)
     track_error: Error = 0.0
     radius_sigma: NotNegative = 0.005
     track_sigma: NotNegative = 0.005
-    slip_sigma: NotNegative = 0.02
-    slip_length: Positive = 0.1
+    slip_sigma: NotNegative | None = None
 
 
 @section
