@@ -51,7 +51,9 @@ def expected_ranges(room: Room, pose: Array, mount: Pose2, bearings: Array) -> t
     towards[np.abs(towards) < GRAZING] = np.nan
     aside = normal[:, 1] * ray[:, 0] - normal[:, 0] * ray[:, 1]
     by_place = -normal / towards[:, None]
-    by_yaw = -ranges * aside / towards + by_place @ np.array([-arm[1], arm[0]])
+    by_yaw = -np.where(np.isfinite(ranges), ranges, np.nan) * aside / towards + by_place @ np.array(
+        [-arm[1], arm[0]]
+    )
     return ranges, np.column_stack([by_place, by_yaw])
 
 

@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 from estimators.poses import Array
 
 NEIGHBOURS: Final = 2
-"""On each side of a point, through which its line is laid."""
+"""Fewest on each side of a point, through which its line is laid."""
+HALF_LENGTH: Final = 0.25
+"""On each side, if the points lie closer; shorter lines have the direction of their noise [m]."""
 THICKNESS: Final = 2.5
 """Largest spread of these across the line, over the noise of one range; a corner is thicker."""
 REACH: Final = 0.5
@@ -43,17 +45,23 @@ class ReferenceScan:
     @classmethod
     def of(cls, points: Array, noise_sigma: float) -> ReferenceScan:
         """Lines through neighbouring points (N, 2) [m], in the order of their bearings."""
-        width = 2 * NEIGHBOURS + 1
-        if len(points) < width:
+        n = len(points)
+        if n < 2 * NEIGHBOURS + 1:
             empty = np.empty((0, 2))
             return cls(middles=empty, normals=empty, half_lengths=np.empty(0))
-        windows = np.lib.stride_tricks.sliding_window_view(points, width, axis=0).transpose(0, 2, 1)
-        middles = windows.mean(axis=1)
-        off = windows - middles[:, None]
-        values, vectors = np.linalg.eigh(off.transpose(0, 2, 1) @ off / width)
+        along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+        index = np.arange(n)
+        first = np.minimum(np.searchsorted(along, along - HALF_LENGTH), index - NEIGHBOURS).clip(0)
+        last = np.maximum(np.searchsorted(along, along + HALF_LENGTH), index + NEIGHBOURS + 1).clip(0, n)
+        count = (last - first)[:, None]
+        middles = _sums(points, first, last) / count
+        products = points[:, :, None] * points[:, None, :]
+        seconds = _sums(products.reshape(n, 4), first, last) / count
+        spread = seconds.reshape(n, 2, 2) - middles[:, :, None] * middles[:, None, :]
+        values, vectors = np.linalg.eigh(spread)
         flat = np.sqrt(np.maximum(values[:, 0], 0.0)) < THICKNESS * noise_sigma
         long = np.sqrt(values[:, 1]) > 2 * THICKNESS * noise_sigma  # else its direction is noise
-        keep = flat & long
+        keep = flat & long & (count[:, 0] > 2 * NEIGHBOURS)
         return cls(
             middles=middles[keep],
             normals=vectors[keep, :, 0],
@@ -141,3 +149,9 @@ def align(
         if np.abs(step).max() < DONE:
             break
     return Alignment(pose=pose, information=information, share=float(good.sum() / len(points)))
+
+
+def _sums(values: Array, first: NDArray[np.intp], last: NDArray[np.intp]) -> Array:
+    """Sums (N, D) of the rows of `values` (N, D) from the first to before the last."""
+    cumulated = np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(values, axis=0)])
+    return np.asarray(cumulated[last] - cumulated[first], float)

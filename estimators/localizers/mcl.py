@@ -17,15 +17,21 @@ from estimators.messages import Message, PoseEstimate
 from estimators.poses import Array, Pose2
 from estimators.room import Room
 
-PARTICLES: Final = 400
+PARTICLES: Final = 600
 SEARCHERS: Final = 8000
 """Particles while the robot does not know where it is."""
 RESAMPLE: Final = 0.5
 """Share of effective particles below which they are resampled."""
-KEEP: Final = 0.1
+KEEP: Final = 0.2
 """Share of effective particles that one scan may leave."""
 UNEXPLAINED: Final = 1e-3
 """Likelihood, over that of a beam that ends on a wall, of one that met something that is not on the map."""
+NEAR: Final = 4.0
+"""A beam that ends within this many standard deviations of a wall is explained."""
+EXPLAINED: Final = 0.75
+"""Share of beams that a pose must explain; people and new furniture take some."""
+MISFITS: Final = 10
+"""Scans in a row that a cloud may fail to explain before the robot is lost and searches."""
 FOUND: Final = (0.25, 0.25)
 """Standard deviations of position [m] and yaw [rad] below which the robot knows where it is."""
 
@@ -40,7 +46,8 @@ class MonteCarloLocalizer:
     slip of its own; a scan weighs it by the
     distances from the ends of its beams to the nearest wall. Resampling is systematic, only when few particles
     carry most of the weight, and from a smooth density, so that copies do not pile up. While wheels stand
-    still scans are skipped: they would only say the same again to particles that do not move.
+    still scans are skipped: they would only say the same again to particles that do not move. A cloud that leaves
+    most beams unexplained is not valid, and after some scans the search begins anew.
 
     Args:
         robot: What the robot believes of itself.
@@ -72,17 +79,20 @@ class MonteCarloLocalizer:
         """Begin at the start, or anywhere."""
         self._rng = np.random.default_rng(self._seed)
         self._sequence.reset()
+        self._moved, self._misfits = True, 0
         if self._start is None:
-            poses = self._anywhere(SEARCHERS)
+            self._begin(self._anywhere(SEARCHERS))
         else:
             noise = self._rng.standard_normal((self._count, 3)) * self._start_sigmas
-            poses = self._start.as_array() + noise
+            self._begin(self._start.as_array() + noise)
+
+    def _begin(self, poses: Array) -> None:
+        """Go on from particles at these poses (N, 3), with wheels of which nothing has been learnt."""
         errors = self._rng.standard_normal((len(poses), PARAMETERS)) * np.sqrt(
             self._model.parameter_variances
         )
         self._states = np.hstack([poses, errors])
         self._log_weights = np.zeros(len(poses))
-        self._moved = True
 
     def _anywhere(self, count: int) -> Array:
         low_x, low_y, high_x, high_y = self._room.bounds
@@ -131,8 +141,19 @@ class MonteCarloLocalizer:
         power = tempered(likelihoods, self._log_weights, KEEP * n)
         self._log_weights = self._log_weights + power * likelihoods
         self._log_weights -= self._log_weights.max()
+        self._judge(points)
         if power < 1.0 or effective_size(self._log_weights) < RESAMPLE * n:
             self._resample()
+
+    def _judge(self, points: Array) -> None:
+        """Search anew where one cloud of particles has not explained scan after scan."""
+        mean, covariance = moments(self._states, self._weights())
+        off = self._field.at(Pose2.of(mean[:3]).apply(points))
+        fits = np.mean(np.abs(off) < NEAR * math.sqrt(self._variance)) >= EXPLAINED
+        self._misfits = 0 if fits or not _found(covariance) else self._misfits + 1
+        if self._misfits >= MISFITS:
+            self._begin(self._anywhere(SEARCHERS))
+            self._misfits = 0
 
     def _log_likelihoods(self, points: Array) -> Array:
         """Of the ends of a scan's beams (K, 2), in the robot's frame [m], from every particle (N,)."""
@@ -166,7 +187,7 @@ class MonteCarloLocalizer:
 
     def _estimate(self, stamp: float) -> PoseEstimate:
         mean, covariance = moments(self._states, self._weights())
-        found = _found(covariance)
+        found = _found(covariance) and not self._misfits
         return PoseEstimate(
             stamp=stamp, pose=Pose2.of(mean[:3]), covariance=covariance[:3, :3], valid=found, yaw_valid=found
         )

@@ -1,6 +1,8 @@
 """Synthetic measurements: what an ideal station would see, without a simulator."""
 
+import importlib.util
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -67,3 +69,14 @@ def draw_target():
         return ImageFrame(stamp=stamp, rgb=rgb, pan=pan)
 
     return draw
+
+
+@pytest.fixture(scope="session")
+def world():
+    """The module `localizer_world`: a robot with a lidar, without a simulator."""
+    spec = importlib.util.spec_from_file_location(
+        "localizer_world", Path(__file__).with_name("localizer_world.py")
+    )
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
