@@ -12,9 +12,11 @@ from rich.console import Console
 
 from benchmarks.commands.bench import bench
 from benchmarks.commands.calibrate import calibrate
+from benchmarks.commands.evaluate import evaluate
 from benchmarks.commands.play import play
 from benchmarks.commands.replay import replay
 from benchmarks.commands.score import score
+from benchmarks.commands.train import TrainingStoppedError, train
 from benchmarks.commands.validate import validate
 from estimators.errors import GtEnvError
 
@@ -51,6 +53,8 @@ app.command()(_interruptible(replay))
 app.command()(_interruptible(score))
 app.command()(_interruptible(calibrate))
 app.command()(_interruptible(bench))
+app.command()(_interruptible(evaluate))
+app.command()(train)  # a training saves itself
 app.command()(play)  # it has recordings to save, and says itself what became of them
 
 
@@ -58,7 +62,7 @@ def main() -> None:
     """Run the command line; an error of the domain is one line and exit status 1."""
     try:
         app()
-    except StoppedError as error:
+    except (StoppedError, TrainingStoppedError) as error:
         _fail(str(error), 130)
     except GtEnvError as error:
         _fail(str(error), 1)

@@ -7,6 +7,7 @@ from typing import Any, Final
 import gymnasium as gym
 
 from benchmarks.policies.heading_noise import SurrogateHeading
+from benchmarks.policies.scan_history import ScanHistory
 from estimators.errors import ConfigError
 from estimators.pose_wrapper import PoseObservation
 from estimators.protocol import METHODS
@@ -23,8 +24,8 @@ TASKS: Final = {
 SURROGATE: Final = "surrogate"
 """In place of a method: the position of `lrf`, the heading of `SurrogateHeading`."""
 ESTIMATES: Final = (*METHODS, SURROGATE)
-OBSERVES: Final = ("pose", "raw")
-"""What a policy may observe: `PoseObservation`, or the environment's own observation."""
+OBSERVES: Final = ("pose", "scan", "raw")
+"""What a policy may observe: `PoseObservation`, `ScanHistory`, or the environment's own observation."""
 
 
 def check_task(task: str) -> None:
@@ -60,6 +61,8 @@ def policy_env(
     check_task(task)
     if estimate not in ESTIMATES:
         raise ConfigError(f"estimate = {estimate!r}: must be one of {', '.join(ESTIMATES)}")
+    if observes == "scan" and task not in ("reach", "reach_scan"):
+        raise ConfigError(f"observes = 'scan': for the tasks reach and reach_scan only, not {task}")
     if observes not in OBSERVES:
         raise ConfigError(f"observes = {observes!r}: must be one of {', '.join(OBSERVES)}")
     if estimate in (SURROGATE, "lrf"):
@@ -71,4 +74,6 @@ def policy_env(
         env = SurrogateHeading(GroundTruthWrapper(env, method="lrf"))
     else:
         env = GroundTruthWrapper(env, method=estimate)
-    return PoseObservation(env) if observes == "pose" else env
+    if observes == "pose":
+        return PoseObservation(env)
+    return ScanHistory(env) if observes == "scan" else env

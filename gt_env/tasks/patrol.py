@@ -62,6 +62,7 @@ class Patrol(Task):
     """
 
     time_limit = 60.0
+    ends_on_success = False
     feature_names = POLAR + tuple(name.replace("goal", "next") for name in POLAR)
     goal_values = 4
 

@@ -94,6 +94,8 @@ class Task(ABC):
     """After which an episode is cut off if the configuration says nothing else [s]."""
     feature_names: ClassVar[tuple[str, ...]]
     """What a guide's features are."""
+    ends_on_success: ClassVar[bool] = True
+    """Whether there is nothing more to do after a success."""
     term_names: ClassVar[tuple[str, ...]] = COMMON_TERMS
     """What the reward is made of."""
 

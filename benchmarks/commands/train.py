@@ -1,0 +1,150 @@
+"""`gt-env train`: learn a policy for one of the tasks."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from collections.abc import Callable
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+from benchmarks.commands.options import SeedOption, SetOption, configuration
+from benchmarks.output import check_writable
+from benchmarks.policies.surroundings import ESTIMATES, TASKS
+from benchmarks.training.folder import POLICY, Run, best_policy, is_run, read_run
+from benchmarks.training.settings import ALGORITHMS, load_settings, make_settings, shipped
+from estimators.errors import ConfigError, GtEnvError, MissingExtraError
+
+TaskOption = Annotated[str, typer.Option("--task", metavar="NAME", help=f"One of {', '.join(TASKS)}.")]
+AlgoOption = Annotated[str, typer.Option("--algo", metavar="NAME", help=f"One of {', '.join(ALGORITHMS)}.")]
+TasksConfigOption = Annotated[
+    str, typer.Option("--config", metavar="NAME_OR_FILE", help="A preset's name or a TOML file.")
+]
+StepsOption = Annotated[
+    int | None, typer.Option("--steps", min=1, help="Of the environment, in place of the file's.")
+]
+ResumeOption = Annotated[bool, typer.Option("--resume", help="Go on with the training in --out.")]
+EstimateOption = Annotated[
+    str | None,
+    typer.Option(
+        "--estimate",
+        metavar="NAME",
+        help=f"What the policy sees while it learns, in place of the file's: {', '.join(ESTIMATES)}.",
+    ),
+]
+HyperOption = Annotated[
+    Path | None,
+    typer.Option("--settings", metavar="FILE", help="Hyper-parameters in place of the shipped ones."),
+]
+
+
+class TrainingStoppedError(GtEnvError):
+    """Ctrl-C in a training: what was learnt is saved."""
+
+
+def train(
+    task: TaskOption = "reach",
+    algo: AlgoOption = "ppo",
+    config: TasksConfigOption = "tasks",
+    overrides: SetOption = None,
+    seed: SeedOption = 0,
+    steps: StepsOption = None,
+    estimate: EstimateOption = None,
+    settings_file: HyperOption = None,
+    resume: ResumeOption = False,
+    jobs: Annotated[int, typer.Option("--jobs", min=1, help="Processes to step environments in.")] = 1,
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="DIR", file_okay=False, help="Folder of the training.")
+    ] = None,
+) -> None:
+    """Train a policy by what the station sees; Ctrl-C leaves a checkpoint, --resume goes on from it."""
+    folder = out or Path("out") / f"{task}_{algo}"
+    default = shipped(task, algo)
+    if resume:
+        run = _resumed(folder, task, algo, steps)
+    else:
+        settings = load_settings(settings_file or default, {"steps": steps, "estimate": estimate})
+        from benchmarks.report.setup import versions
+
+        run = Run(
+            task=task,
+            algo=algo,
+            seed=seed,
+            settings=settings,
+            config=configuration(config, overrides),
+            setup={"command": shlex.join(["gt-env", *sys.argv[1:]]), "versions": versions()},
+        )
+        if is_run(folder):
+            raise ConfigError(f"--out {folder}: holds a training already: --resume goes on, or name another")
+    for package in ("torch", "stable_baselines3"):
+        if find_spec(package) is None:
+            raise MissingExtraError("gt-env train", package, "rl")
+    check_writable(folder)
+    _train(run, folder, resume, jobs)
+
+
+def _resumed(folder: Path, task: str, algo: str, steps: int | None) -> Run:
+    """The training in a folder, with as many steps as are asked for."""
+    run = read_run(folder)
+    if (run.task, run.algo) != (task, algo):
+        raise ConfigError(f"--out {folder}: holds a training of --task {run.task} --algo {run.algo}")
+    if run.algo == "bc":
+        raise ConfigError("--resume: cloning is done in one go; train it anew")
+    if not (folder / POLICY).is_file():
+        raise ConfigError(f"--out {folder}: there is no {POLICY} to go on from")
+    values = run.settings.as_dict()
+    if steps is not None:
+        values["steps"] = steps
+    return Run(
+        task=run.task,
+        algo=run.algo,
+        seed=run.seed,
+        settings=make_settings(values, str(folder)),
+        config=run.config,
+        setup=run.setup,
+    )
+
+
+def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
+    from benchmarks.training.surroundings import training_env
+
+    training_env(run.task, run.config, run.settings).close()  # what is wrong with the set-up is said here
+    run.write(folder)
+    console = Console(stderr=True)
+    bar = Progress(
+        TextColumn("training {task.fields[name]}"),
+        BarColumn(bar_width=None),
+        MofNCompleteColumn(),
+        TimeRemainingColumn(),
+        console=console,
+        transient=True,
+    )
+    with bar:
+        shown = bar.add_task("", total=run.settings.steps, name=f"{run.task} by {run.algo}")
+        try:
+            done = _learn(run, folder, resume, jobs, lambda n: bar.update(shown, completed=n))
+        except KeyboardInterrupt:
+            raise TrainingStoppedError(
+                f"interrupted: {folder / POLICY} is saved; the same command with --resume goes on from it"
+            ) from None
+    Console().print(
+        f"{best_policy(folder)}: {done} steps; gt-env evaluate {folder} judges it",
+        soft_wrap=True,
+        highlight=False,
+        markup=False,
+    )
+
+
+def _learn(run: Run, folder: Path, resume: bool, jobs: int, progress: Callable[[int], None]) -> int:
+    from benchmarks.training import sb3
+
+    if run.algo == "bc":
+        from benchmarks.training.cloning import clone
+
+        return clone(run, folder, lambda env: sb3.Imitator(env, run), progress)
+    return sb3.train(run, folder, resume=resume, jobs=jobs, progress=progress)

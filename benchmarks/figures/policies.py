@@ -1,0 +1,78 @@
+"""What policies did: ways over the map, and how they learnt."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from benchmarks.evaluation.episode import Episode
+from benchmarks.figures.map import draw_room
+from benchmarks.figures.style import ESTIMATED, REAL, WIDTH, new_figure
+from estimators.room import Room
+
+FAILED: Final = ESTIMATED[0]
+GOAL: Final = "#16854a"
+SHOWN: Final = 16
+"""Episodes drawn per policy."""
+COLUMNS: Final = 2
+
+
+def ways_figure(episodes: Mapping[str, Sequence[Episode]], room: Room, radius: float) -> Figure:
+    """A map per policy with its first episodes: blue reached what they should, red did not."""
+    rows = -(-len(episodes) // COLUMNS)
+    low_x, low_y, high_x, high_y = room.bounds
+    aspect = (high_y - low_y + 0.5) / (high_x - low_x + 0.5)
+    height = rows * (WIDTH / COLUMNS * aspect + 0.5) + 0.3
+    figure, axes = new_figure(WIDTH, height, rows=rows, columns=COLUMNS, sharex=True, sharey=True)
+    for ax, (name, driven) in zip(axes, episodes.items(), strict=False):
+        draw_room(ax, room, margin=0.15)
+        draw_ways(ax, driven[:SHOWN], radius)
+        share = np.mean([e.success for e in driven])
+        ax.set_title(f"{name}: {100 * share:.0f} % of {len(driven)}")
+        ax.label_outer()
+    for ax in axes[len(episodes) :]:
+        ax.set_axis_off()
+    handles = [
+        Line2D([], [], color=REAL, label="true way, success"),
+        Line2D([], [], color=FAILED, label="true way, failure"),
+        Line2D([], [], color="#333333", marker="o", ms=3, ls="none", label="start"),
+        Line2D([], [], color=GOAL, marker="o", mfc="none", ms=6, ls="none", label="goal"),
+    ]
+    figure.legend(handles=handles, loc="outside upper center", ncols=4)
+    return figure
+
+
+def draw_ways(ax: Axes, episodes: Sequence[Episode], radius: float) -> None:
+    """True ways with start and goal; a path to follow is a broad line below."""
+    for e in episodes:
+        if len(e.goal) > 4:
+            ax.plot(*e.goal.T, color="#c9d6c9", lw=3.0, zorder=2, solid_capstyle="round")
+    for e in episodes:
+        ax.plot(*e.true_path.T, color=REAL if e.success else FAILED, lw=0.8, alpha=0.8, zorder=3)
+        ax.plot(*e.true_path[0], "o", color="#333333", ms=2, zorder=4)
+        if len(e.goal) <= 4:
+            for point in e.goal:
+                angles = np.linspace(0, 2 * np.pi, 25)
+                circle = point + radius * np.column_stack([np.cos(angles), np.sin(angles)])
+                ax.plot(*circle.T, color=GOAL, lw=0.9, zorder=4)
+
+
+def learning_figure(curves: Mapping[str, Mapping[str, Any]]) -> Figure:
+    """Success and return over steps."""
+    figure, (above, below) = new_figure(WIDTH, 3.6, rows=2, sharex=True)
+    colors = (REAL, *ESTIMATED)
+    for i, (name, curve) in enumerate(curves.items()):
+        look: dict[str, Any] = {"color": colors[i % len(colors)], "marker": ".", "ms": 4}
+        above.plot(curve["steps"] / 1000, 100 * curve["success"], label=name, **look)
+        below.plot(curve["steps"] / 1000, curve["return"], **look)
+    above.set_ylabel("success [%]")
+    above.set_ylim(-3, 103)
+    below.set_ylabel("return")
+    below.set_xlabel("steps [1000]")
+    figure.legend(loc="outside upper center", ncols=min(4, len(curves)))
+    return figure

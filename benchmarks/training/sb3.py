@@ -1,0 +1,250 @@
+"""Everything that touches stable-baselines3 and torch, and nothing else does."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import Any, Final
+
+import gymnasium as gym
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from stable_baselines3 import A2C, DDPG, DQN, PPO, SAC, TD3
+from stable_baselines3.common.base_class import BaseAlgorithm
+from stable_baselines3.common.callbacks import BaseCallback, CallbackList, EvalCallback
+from stable_baselines3.common.env_util import make_vec_env
+from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
+from stable_baselines3.common.vec_env import DummyVecEnv, SubprocVecEnv, VecEnv, VecNormalize
+
+from benchmarks.output import staged
+from benchmarks.training.folder import BUFFER, EVALUATIONS, NORMALIZER, POLICY, Run
+from benchmarks.training.surroundings import training_env
+from estimators.errors import ConfigError
+
+ALGORITHMS: Final[dict[str, type[BaseAlgorithm]]] = {"ppo": PPO, "sac": SAC}
+KNOWN: Final = (PPO, SAC, TD3, DDPG, A2C, DQN)
+"""Algorithms whose files are read, in the order in which they are tried."""
+EVALUATION_SEED: Final = 1_000_000
+"""Added to a training's seed for the episodes of its evaluations: none is trained on."""
+Progress = Callable[[int], None]
+
+torch.set_num_threads(1)  # networks this small lose time by more
+
+
+class _Watch(BaseCallback):
+    """Reports progress and saves checkpoints."""
+
+    def __init__(self, folder: Path, every: int, progress: Progress) -> None:
+        super().__init__()
+        self._folder, self._every, self._progress = folder, every, progress
+        self._saved = 0
+
+    def _on_training_start(self) -> None:
+        self._saved = self.num_timesteps
+
+    def _on_step(self) -> bool:
+        self._progress(self.num_timesteps)
+        if self.num_timesteps - self._saved >= self._every:
+            self._saved = self.num_timesteps
+            save(self.model, self._folder)
+        return True
+
+
+class _Curve(EvalCallback):
+    """Evaluates now and then; a training that goes on continues the curve."""
+
+    def __init__(self, env: VecEnv, folder: Path, episodes: int, every: int) -> None:
+        super().__init__(
+            env,
+            n_eval_episodes=episodes,
+            eval_freq=every,
+            log_path=str(folder),
+            best_model_save_path=str(folder),
+            verbose=0,
+        )
+        before = folder / EVALUATIONS
+        if before.is_file():
+            past = np.load(before)
+            self.evaluations_timesteps = past["timesteps"].tolist()
+            self.evaluations_results = past["results"].tolist()
+            self.evaluations_length = past["ep_lengths"].tolist()
+            self.evaluations_successes = past["successes"].tolist() if "successes" in past else []
+            self.best_mean_reward = float(past["results"].mean(axis=1).max())
+
+
+def train(run: Run, folder: Path, *, resume: bool, jobs: int, progress: Progress) -> int:
+    """Train a policy, or go on training it, until the run's steps are done.
+
+    Args:
+        run: What to train.
+        folder: Where checkpoints, evaluations and the policy go; what is there is gone on from with `resume`.
+        resume: Whether to go on.
+        jobs: Processes to step the environments in; 1 for this one.
+        progress: Told of the steps that are done.
+
+    Returns:
+        Steps done. On Ctrl-C what was learnt is saved, then the interrupt goes on.
+
+    Raises:
+        ConfigError: If the algorithm does not know an argument.
+    """
+    settings = run.settings
+    envs = _environments(run, settings.environments, run.seed, jobs)
+    checks = _environments(run, 1, run.seed + EVALUATION_SEED, 1)
+    if settings.normalize_reward:
+        envs = _normalized(envs, folder, resume, settings.algorithm.get("gamma", 0.99))
+        checks = VecNormalize(checks, training=False, norm_obs=False, norm_reward=False)
+    try:
+        model = _model(run, folder, envs, resume)
+        every = max(1, settings.evaluate_every // settings.environments)
+        curve = _Curve(checks, folder, settings.evaluate_episodes, every)
+        watch = _Watch(folder, settings.checkpoint_every, progress)
+        left = settings.steps - model.num_timesteps
+        try:
+            if left > 0:
+                model.learn(left, callback=CallbackList([curve, watch]), reset_num_timesteps=not resume)
+        finally:
+            save(model, folder)
+        return int(model.num_timesteps)
+    finally:
+        envs.close()
+        checks.close()
+
+
+class Imitator:
+    """A network of stable-baselines3's that is fitted to what an expert does, and saved like any other.
+
+    Args:
+        env: Whose spaces it has.
+        run: Of which the hyper-parameters are read: `learning_rate`, `batch_size`, `n_epochs`, and the policy's.
+    """
+
+    def __init__(self, env: gym.Env[Any, Any], run: Run) -> None:
+        arguments = dict(run.settings.algorithm)
+        try:
+            self._epochs = int(arguments.pop("n_epochs"))
+            self._batch = int(arguments.pop("batch_size"))
+            rate = float(arguments.pop("learning_rate"))
+        except KeyError as error:
+            raise ConfigError(f"[algorithm] of --algo bc: needs {error.args[0]}") from None
+        if arguments:
+            raise ConfigError(f"[algorithm] of --algo bc: {', '.join(arguments)}: unknown")
+        keywords = dict(run.settings.policy) or None
+        self._model = PPO("MlpPolicy", env, seed=run.seed, device="cpu", policy_kwargs=keywords)
+        self._optimizer = torch.optim.Adam(self._model.policy.parameters(), lr=rate)
+        self._rng = np.random.default_rng(run.seed)
+
+    def fit(self, observations: NDArray[Any], actions: NDArray[Any]) -> float:
+        """Pass over everything several times; returns the last mean squared error."""
+        seen = torch.as_tensor(observations, dtype=torch.float32)
+        done = torch.as_tensor(actions, dtype=torch.float32)
+        loss = torch.zeros(())
+        for _ in range(self._epochs):
+            for part in np.array_split(self._rng.permutation(len(seen)), max(1, len(seen) // self._batch)):
+                distribution: Any = self._model.policy.get_distribution(seen[part])
+                loss = torch.mean((distribution.distribution.mean - done[part]) ** 2)
+                self._optimizer.zero_grad()
+                loss.backward()  # type: ignore[no-untyped-call]
+                self._optimizer.step()
+        return float(loss.detach())
+
+    def predict(
+        self, observation: Any, state: Any = None, episode_start: Any = None, deterministic: bool = True
+    ) -> tuple[NDArray[Any], Any]:
+        """Choose actions."""
+        return self._model.predict(observation, state, episode_start, deterministic)
+
+    def save(self, folder: Path) -> None:
+        """Save the network."""
+        save(self._model, folder)
+
+
+def save(model: BaseAlgorithm, folder: Path) -> None:
+    """Save everything that training needs to go on; what was there stays until all of it is written."""
+    with staged(folder) as scratch:
+        model.save(scratch / POLICY)
+        if isinstance(model, OffPolicyAlgorithm):
+            model.save_replay_buffer(scratch / BUFFER)
+        normalizer = model.get_vec_normalize_env()
+        if normalizer is not None:
+            normalizer.save(str(scratch / NORMALIZER))
+
+
+def load(path: Path) -> Any:
+    """A policy from a file of stable-baselines3, whichever of its algorithms wrote it.
+
+    Raises:
+        ConfigError: If it is no such file.
+    """
+    reason: Exception | None = None
+    for algorithm in KNOWN:
+        try:
+            return algorithm.load(path, device="cpu")
+        except Exception as error:
+            # Which algorithm wrote a file is not in it; each fails in its own way on another's.
+            reason = reason or error
+    raise ConfigError(f"{path}: not a policy of stable-baselines3: {reason}") from None
+
+
+def learning_curve(folder: Path) -> dict[str, NDArray[Any]] | None:
+    """Steps (E,), mean return (E,) and success rate (E,) of a training's evaluations, if there are any."""
+    path = folder / EVALUATIONS
+    if not path.is_file():
+        return None
+    seen = np.load(path)
+    successes = seen["successes"] if "successes" in seen else np.full(seen["results"].shape, np.nan)
+    return {
+        "steps": seen["timesteps"],
+        "return": seen["results"].mean(axis=1),
+        "success": successes.mean(axis=1),
+    }
+
+
+def _environments(run: Run, count: int, seed: int, jobs: int) -> VecEnv:
+    make: Callable[[], gym.Env[Any, Any]] = partial(training_env, run.task, run.config, run.settings)
+    side_by_side = jobs > 1 and count > 1
+    return make_vec_env(
+        make,
+        n_envs=count,
+        seed=seed,
+        vec_env_cls=SubprocVecEnv if side_by_side else DummyVecEnv,
+        vec_env_kwargs={"start_method": "spawn"} if side_by_side else None,
+        monitor_kwargs={"info_keywords": ("is_success",)},
+    )
+
+
+def _normalized(envs: VecEnv, folder: Path, resume: bool, gamma: float) -> VecNormalize:
+    if resume and (folder / NORMALIZER).is_file():
+        return VecNormalize.load(str(folder / NORMALIZER), envs)
+    return VecNormalize(envs, norm_obs=False, norm_reward=True, gamma=gamma)
+
+
+def _model(run: Run, folder: Path, envs: VecEnv, resume: bool) -> BaseAlgorithm:
+    if resume:
+        model = ALGORITHMS[run.algo].load(folder / POLICY, env=envs, device="cpu")
+        if isinstance(model, OffPolicyAlgorithm):
+            model.load_replay_buffer(folder / BUFFER)
+        return model
+    policy = "MultiInputPolicy" if isinstance(envs.observation_space, gym.spaces.Dict) else "MlpPolicy"
+    arguments = dict(run.settings.algorithm)
+    log = str(folder / "tensorboard") if _has_tensorboard() else None
+    try:
+        return ALGORITHMS[run.algo](
+            policy,
+            envs,
+            seed=run.seed,
+            device="cpu",
+            tensorboard_log=log,
+            policy_kwargs=dict(run.settings.policy) or None,
+            **arguments,
+        )
+    except (TypeError, AssertionError, ValueError) as error:
+        raise ConfigError(f"[algorithm] or [policy] of --algo {run.algo}: {error}") from None
+
+
+def _has_tensorboard() -> bool:
+    from importlib.util import find_spec
+
+    return find_spec("tensorboard") is not None

@@ -1,0 +1,16 @@
+"""The environment to train in."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import gymnasium as gym
+
+from benchmarks.policies.surroundings import policy_env
+from benchmarks.training.settings import TrainingSettings
+from gt_env.config import EnvConfig
+
+
+def training_env(task: str, config: EnvConfig, settings: TrainingSettings) -> gym.Env[Any, Any]:
+    """One copy of the environment that a policy learns in."""
+    return policy_env(task, config, estimate=settings.estimate, observes=settings.observes)

@@ -1,0 +1,194 @@
+"""Training: what it leaves behind, and that it goes on from there."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from benchmarks.cli import app
+from benchmarks.evaluation.candidates import candidates, meet
+from benchmarks.policies.surroundings import TASKS
+from benchmarks.training.folder import BEST, BUFFER, NORMALIZER, POLICY, Run, read_run
+from benchmarks.training.settings import ALGORITHMS, load_settings, make_settings, shipped
+from estimators import ConfigError
+from gt_env import load_config
+
+CONFIG = load_config({"task": {"time_limit": 3.0}}, default="tasks")
+TINY = {
+    "ppo": {"algorithm": {"n_steps": 32, "batch_size": 32, "n_epochs": 1}, "normalize_reward": True,
+            "environments": 2},
+    "sac": {"algorithm": {"learning_starts": 20, "batch_size": 16, "buffer_size": 1000}},
+}  # fmt: skip
+
+
+def tiny(algo, steps, task="reach"):
+    values = {"steps": steps, "estimate": "lrf", "evaluate_every": 64, "evaluate_episodes": 1,
+              "checkpoint_every": 64, "policy": {"net_arch": [8]}, **TINY[algo]}  # fmt: skip
+    settings = make_settings(values, "test")
+    return Run(task=task, algo=algo, seed=0, settings=settings, config=CONFIG, setup={})
+
+
+@pytest.fixture
+def sb3():
+    for package in ("pybullet", "torch", "stable_baselines3"):
+        pytest.importorskip(package)
+    from benchmarks.training import sb3
+
+    return sb3
+
+
+def weights(path, sb3):
+    return {k: v.numpy().copy() for k, v in sb3.load(path).policy.state_dict().items()}
+
+
+@pytest.mark.parametrize("algo", TINY)
+def test_a_training_leaves_all_that_is_needed_to_go_on(algo, sb3, tmp_path):
+    run, seen = tiny(algo, 64), []
+    run.write(tmp_path)
+    done = sb3.train(run, tmp_path, resume=False, jobs=1, progress=seen.append)
+    first = weights(tmp_path / POLICY, sb3)
+
+    assert done >= 64
+    assert seen == sorted(seen)
+    assert {"run.json", POLICY, BEST, {"ppo": NORMALIZER, "sac": BUFFER}[algo]} <= {
+        p.name for p in tmp_path.iterdir()
+    }
+    assert not list(tmp_path.glob(".unfinished*"))
+
+    more = sb3.train(tiny(algo, 128), tmp_path, resume=True, jobs=1, progress=seen.append)
+    then = weights(tmp_path / POLICY, sb3)
+    curve = sb3.learning_curve(tmp_path)
+    assert more >= 128
+    assert min(seen[seen.index(done) + 1 :]) > done  # it did not begin anew
+    assert any((first[k] != then[k]).any() for k in first)
+    assert (np.diff(curve["steps"]) > 0).all()
+    assert len(curve["steps"]) >= 2
+    if algo == "sac":
+        assert sb3.load(tmp_path / POLICY).num_timesteps == more
+
+
+@pytest.mark.slow
+def test_going_on_with_nothing_left_changes_nothing(sb3, tmp_path):
+    run = tiny("ppo", 64)
+    run.write(tmp_path)
+    sb3.train(run, tmp_path, resume=False, jobs=1, progress=lambda n: None)
+    first = weights(tmp_path / POLICY, sb3)
+    sb3.train(run, tmp_path, resume=True, jobs=1, progress=lambda n: None)
+
+    again = weights(tmp_path / POLICY, sb3)
+    assert all((first[k] == again[k]).all() for k in first)
+
+
+@pytest.mark.slow
+def test_the_same_seed_learns_the_same(sb3, tmp_path):
+    learnt = []
+    for name in ("one", "two"):
+        folder = tmp_path / name
+        folder.mkdir()
+        sb3.train(tiny("ppo", 64), folder, resume=False, jobs=1, progress=lambda n: None)
+        learnt.append(weights(folder / POLICY, sb3))
+    assert all((learnt[0][k] == learnt[1][k]).all() for k in learnt[0])
+
+
+def test_an_interrupt_leaves_a_checkpoint_that_acts(sb3, tmp_path):
+    run = tiny("ppo", 10_000)
+    run.write(tmp_path)
+
+    def interrupt(steps):
+        if steps >= 40:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sb3.train(run, tmp_path, resume=False, jobs=1, progress=interrupt)
+
+    (candidate,) = candidates([str(tmp_path)])
+    env, policy = meet(candidate, "reach", CONFIG, "lrf")
+    observation, _ = env.reset(seed=0)
+    action, _ = policy.predict(observation, deterministic=True)
+    assert env.action_space.contains(action)
+    assert 40 <= sb3.load(tmp_path / POLICY).num_timesteps < 100
+    env.close()
+
+
+def test_what_was_trained_is_written_down(tmp_path):
+    run = tiny("sac", 64, task="patrol")
+    run.write(tmp_path)
+    again = read_run(tmp_path)
+    assert again == run
+    assert json.loads((tmp_path / "run.json").read_text())["config"]["task"]["time_limit"] == 3.0
+
+
+def test_a_policy_whose_spaces_do_not_match_is_refused_with_both(sb3, tmp_path):
+    run = tiny("ppo", 64)
+    run.write(tmp_path)
+    sb3.train(run, tmp_path, resume=False, jobs=1, progress=lambda n: None)
+    (folder,) = candidates([str(tmp_path)])
+    (file,) = candidates([str(tmp_path / POLICY)])
+
+    meet(file, "reach", CONFIG, "lrf")[0].close()
+    for candidate in (folder, file):
+        with pytest.raises(ConfigError, match=r"\(12,\).*environment of follow_path.*\(20,\)"):
+            meet(candidate, "follow_path", CONFIG, "lrf")
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_shipped_hyper_parameters_can_be_read(task):
+    there = 0
+    for algo in ALGORITHMS:
+        try:
+            path = shipped(task, algo)
+        except ConfigError:
+            continue
+        settings, there = load_settings(path, {"steps": 7}), there + 1
+        assert settings.steps == 7
+        assert settings.estimate in ("surrogate", "lrf", "fused")
+    assert there
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        (["--task", "fly"], r"--task fly.*reach"),
+        (["--algo", "dqn"], r"--algo dqn.*ppo, sac"),
+        (["--estimate", "guess"], r"guess.*surrogate"),
+        (["--resume"], "holds no training"),
+        (["--set", "lrf.beams=0"], r"lrf\.beams"),
+        (["--settings", "nowhere.toml"], r"nowhere\.toml"),
+    ],
+)
+def test_what_cannot_be_trained_is_refused_in_one_line(asked, said, tmp_path):
+    out = tmp_path / "out"
+    done = CliRunner().invoke(app, ["train", *asked, "--out", str(out)])
+
+    assert done.exit_code != 0
+    assert re.search(said, str(done.exception)), done.exception
+    assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ({"steps": 0}, "steps"),
+        ({"steps": 10, "stpes": 3}, "stpes.*there are steps"),
+        ({"steps": 10, "algorithm": 3}, "algorithm"),
+    ],
+)
+def test_settings_that_cannot_be_are_refused(values, said):
+    with pytest.raises(ConfigError, match=said):
+        make_settings(values, "file")
+
+
+def test_an_argument_that_the_algorithm_does_not_know_is_said(sb3, tmp_path):
+    settings = make_settings({"steps": 10, "estimate": "lrf", "algorithm": {"speed": 3}}, "file")
+    run = Run(task="reach", algo="ppo", seed=0, settings=settings, config=CONFIG, setup={})
+    with pytest.raises(ConfigError, match="speed"):
+        sb3.train(run, tmp_path, resume=False, jobs=1, progress=lambda n: None)
+
+
+def test_a_second_training_does_not_overwrite_the_first(sb3, tmp_path):
+    tiny("ppo", 64).write(tmp_path)
+    done = CliRunner().invoke(app, ["train", "--out", str(tmp_path)])
+    assert done.exit_code != 0
+    assert "--resume" in str(done.exception)
