@@ -157,7 +157,9 @@ def test_a_class_of_one_s_own_is_judged(name, tmp_path, monkeypatch):
 
     assert (candidate.name, candidate.kind) == (name, "class")
     assert episode.smoothness == 0
-    assert episode.length == pytest.approx(np.hypot(*(episode.true_path[-1] - episode.true_path[0])), abs=0.02)
+    assert episode.length == pytest.approx(
+        np.hypot(*(episode.true_path[-1] - episode.true_path[0])), abs=0.02
+    )
     env.close()
 
 
