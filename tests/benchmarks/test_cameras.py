@@ -79,6 +79,19 @@ def test_the_preset_narrow_is_among_them():
     assert CAMERAS["narrow"].before(load_config("thesis")) == narrow
 
 
+def test_a_room_with_obstacles_is_seen_by_both_renderers(monkeypatch):
+    pytest.importorskip("pybullet")
+    obstacles = (
+        {"shape": "box", "position": (3.5, 0.3), "size": (0.3, 0.2, 0.12)},
+        {"shape": "cylinder", "position": (-3.6, 3.6), "radius": 0.1, "height": 0.3},
+    )
+    found = compared(monkeypatch, ("tiny", "fast"), config={"room": {"obstacles": obstacles}})
+    assert found.failed is None
+    tiny, fast = (found.static[name]["thesis"].score for name in ("tiny", "fast"))
+    assert tiny.rmse_xy == pytest.approx(fast.rmse_xy, abs=1e-12)
+    assert fast.mae[2] is not None
+
+
 def test_without_a_camera_there_is_nothing_to_compare():
     with pytest.raises(ConfigError, match=r"camera\.enabled"):
         plan_cameras(load_config({"camera": {"enabled": False}}), ("thesis",), seed=0, quick=True)
