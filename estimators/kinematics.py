@@ -76,18 +76,21 @@ def skid_steer_track(track: float, wheelbase: float) -> float:
 class SkidSteer:
     """Four driven wheels, geared together on each side; speeds left, right.
 
-    It turns as a differential robot with `skid_steer_track` does, once it turns steadily; getting there, and fast in
+    It turns as a differential robot with a wider track does, once it turns steadily; getting there, and fast in
     curves, it slips by nature.
 
     Attributes:
         radius: Of the wheels [m].
         track: Distance between left and right ones [m].
         wheelbase: Distance between front and rear ones [m].
+        turning_track: Track of the differential robot that turns as it does [m], as measured; 0 for
+            `skid_steer_track`, which holds where all wheels carry the same.
     """
 
     radius: float
     track: float
     wheelbase: float
+    turning_track: float = 0.0
 
     @property
     def wheels(self) -> int:
@@ -97,7 +100,8 @@ class SkidSteer:
     @property
     def equivalent(self) -> Differential:
         """The differential robot that turns as this one."""
-        return Differential(radius=self.radius, track=skid_steer_track(self.track, self.wheelbase))
+        track = self.turning_track or skid_steer_track(self.track, self.wheelbase)
+        return Differential(radius=self.radius, track=track)
 
     def twist(self, speeds: Array) -> Array:
         """See `Kinematics`."""

@@ -6,7 +6,7 @@ import os
 import sys
 import tempfile
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -134,7 +134,10 @@ class Engine:
             path = Path(folder) / "robot.urdf"
             path.write_text(model.urdf)
             try:
-                number = p.loadURDF(str(path), flags=p.URDF_USE_IMPLICIT_CYLINDER, physicsClientId=client)
+                flags = p.URDF_USE_IMPLICIT_CYLINDER
+                flags |= 0 if model.own_inertia else p.URDF_USE_INERTIA_FROM_FILE
+                with _quiet() if not model.own_inertia else nullcontext():
+                    number = p.loadURDF(str(path), flags=flags, physicsClientId=client)
             except p.error as error:
                 raise ConfigError(f"robot.urdf: cannot be loaded: {error}") from None
         names = {
@@ -157,11 +160,12 @@ class Engine:
                 physicsClientId=client,
             )
             if model.spin and link in body.joints:
-                across = p.getDynamicsInfo(number, link, physicsClientId=client)[2][0]
-                moments = [across, model.spin, across]
+                moments = list(p.getDynamicsInfo(number, link, physicsClientId=client)[2])
+                moments[model.axle] = model.spin
                 p.changeDynamics(number, link, localInertiaDiagonal=moments, physicsClientId=client)
             if rolls and model.slide:
-                p.changeDynamics(number, link, anisotropicFriction=[1, 0, 1], physicsClientId=client)
+                along = [float(axis != model.axle) for axis in range(3)]
+                p.changeDynamics(number, link, anisotropicFriction=along, physicsClientId=client)
             for other in others if rolls else ():
                 if other != ground:
                     p.setCollisionFilterPair(number, other, link, -1, 0, physicsClientId=client)
@@ -212,6 +216,27 @@ class Engine:
         visual = p.createVisualShape(shape, **seen, rgbaColor=rgba, physicsClientId=client)
         turn = p.getQuaternionFromEuler([0, 0, yaw])
         return int(p.createMultiBody(0, collision, visual, list(centre), turn, physicsClientId=client))
+
+
+def find_urdf(file: str) -> Path:
+    """Path of a URDF file as it stands, or of one that comes with the engine, like `husky/husky.urdf`.
+
+    Raises:
+        ConfigError: If there is none.
+    """
+    path = Path(file)
+    if path.is_file():
+        return path
+    try:
+        from pybullet_data import getDataPath
+    except ImportError:
+        raise MissingExtraError("the simulator", "pybullet", "sim") from None
+    shipped = Path(getDataPath()) / file
+    if not shipped.is_file():
+        raise ConfigError(
+            f"robot.urdf = {file!r}: must be a URDF file that exists, here or among pybullet's own"
+        )
+    return shipped
 
 
 def _import_pybullet() -> Any:

@@ -11,8 +11,9 @@ from gt_env.body import State
 from gt_env.config import EnvConfig
 from gt_env.config.sections import RobotConfig
 from gt_env.config.shape import kinematics
-from gt_env.engine import Engine
+from gt_env.engine import Engine, find_urdf
 from gt_env.robot_model import RobotModel, built_in_robot
+from gt_env.robot_urdf import robot_from_urdf
 from gt_env.slip import Slip
 
 INTEGRAL_GAIN = 0.3
@@ -194,6 +195,8 @@ def _towards(value: float, goal: float, most: float) -> float:
 
 def robot_model(config: EnvConfig) -> RobotModel:
     """What the engine loads."""
+    if config.robot.urdf:
+        return robot_from_urdf(find_urdf(config.robot.urdf), config.robot, config.target)
     return built_in_robot(config.robot, config.target)
 
 

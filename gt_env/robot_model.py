@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
@@ -31,6 +31,8 @@ class RobotModel:
         rollers: Names of the joints of wheels without a motor.
         steering: Names of the steering joints, left and right.
         spin: Moment of inertia of each driven wheel with its motor about the axle [kg m^2]; 0 for the wheel's own.
+        axle: Which axis of a driven wheel's link its axle is, 0 to 2.
+        own_inertia: Whether the moments of inertia are those of the shapes, not of the description.
         slide: Whether the wheels slide along their axles, as omnidirectional ones do.
     """
 
@@ -39,6 +41,8 @@ class RobotModel:
     rollers: tuple[str, ...] = ()
     steering: tuple[str, ...] = ()
     spin: float = 0.0
+    axle: int = 1
+    own_inertia: bool = True
     slide: bool = False
 
 
@@ -81,13 +85,28 @@ def spin_inertia(robot: RobotConfig, target: TargetConfig) -> float:
     """
     if robot.model != "skid_steer":
         return 0.0
-    load = 0.25 * (robot.mass + target.mass) + robot.wheel_mass
-    return ROTOR_SHARE * load * robot.wheel_radius**2
+    return motor_inertia(robot.mass + target.mass + 4 * robot.wheel_mass, robot.wheel_radius)
 
 
 def joint_name(part: str) -> str:
     """Name of a part's joint."""
     return f"{part}_wheel_joint" if not part.endswith("_steering") else f"{part}_joint"
+
+
+def add_body(base: ET.Element, shape: RobotShape) -> None:
+    """What touches in the place of a body that is only seen."""
+    add_shape(base, "collision", _box(shape.size), shape.middle)
+    for place in shape.casters:
+        add_shape(base, "collision", sphere(CASTER_RADIUS), place)
+    add_guards(base, shape)
+
+
+def target_inertia(link: ET.Element, target: TargetConfig) -> None:
+    """The target's mass alone, a full cylinder's."""
+    h = target.z_max - target.z_min
+    across = target.mass * (3 * target.radius**2 + h**2) / 12
+    spin = 0.5 * target.mass * target.radius**2
+    _inertia(link, target.mass, (*target.mount, 0.5 * (target.z_min + target.z_max)), (across, across, spin))
 
 
 def add_guards(base: ET.Element, shape: RobotShape) -> None:
@@ -113,6 +132,11 @@ def add_target(link: ET.Element, target: TargetConfig) -> None:
         angle = (angle_deg + target.mount_yaw_deg) * DEG
         place = (x + reach * math.cos(angle), y + reach * math.sin(angle), z)
         add_shape(link, "visual", marker, place, (0, 0, angle), color=color, name=f"marker_{index}")
+
+
+def motor_inertia(mass: float, radius: float) -> float:
+    """Of one of four wheels with its motor, for a robot of a mass [kg m^2]."""
+    return ROTOR_SHARE * 0.25 * mass * radius**2
 
 
 def _wheel(root: ET.Element, wheel: Wheel, robot: RobotConfig) -> None:
@@ -142,7 +166,7 @@ def _joint(
     joint = ET.SubElement(root, "joint", name=name, type="continuous")
     ET.SubElement(joint, "parent", link=parent)
     ET.SubElement(joint, "child", link=child)
-    ET.SubElement(joint, "origin", xyz=_text(place), rpy=_text((0, 0, yaw)))
+    ET.SubElement(joint, "origin", xyz=vector(place), rpy=vector((0, 0, yaw)))
     ET.SubElement(joint, "axis", xyz=axis)
 
 
@@ -173,7 +197,7 @@ def add_inertia(
 
 def _inertia(link: ET.Element, mass: float, com: Sequence[float], moments: Sequence[float]) -> None:
     inertial = ET.SubElement(link, "inertial")
-    ET.SubElement(inertial, "origin", xyz=_text(com))
+    ET.SubElement(inertial, "origin", xyz=vector(com))
     ET.SubElement(inertial, "mass", value=repr(mass))
     ixx, iyy, izz = (repr(m) for m in moments)
     ET.SubElement(inertial, "inertia", ixx=ixx, iyy=iyy, izz=izz, ixy="0", ixz="0", iyz="0")
@@ -191,16 +215,16 @@ def add_shape(
     """One geometry as `visual`, `collision` or `both`."""
     for tag in ("visual", "collision") if kind == "both" else (kind,):
         part = ET.SubElement(link, tag)
-        ET.SubElement(part, "origin", xyz=_text(xyz), rpy=_text(rpy))
+        ET.SubElement(part, "origin", xyz=vector(xyz), rpy=vector(rpy))
         ET.SubElement(part, "geometry").append(geometry)
         if tag == "visual" and color is not None:
             # Materials are shared by name across a URDF, so each part gets a name of its own.
             material = ET.SubElement(part, "material", name=f"{name}_color")
-            ET.SubElement(material, "color", rgba=_text([*(c / 255 for c in color), 1]))
+            ET.SubElement(material, "color", rgba=vector([*(c / 255 for c in color), 1]))
 
 
 def _box(size: Sequence[float]) -> ET.Element:
-    return ET.Element("box", size=_text(size))
+    return ET.Element("box", size=vector(size))
 
 
 def _cylinder(radius: float, length: float) -> ET.Element:
@@ -212,5 +236,6 @@ def sphere(radius: float) -> ET.Element:
     return ET.Element("sphere", radius=repr(radius))
 
 
-def _text(numbers: Sequence[float]) -> str:
+def vector(numbers: Iterable[float]) -> str:
+    """Numbers as a URDF has them."""
     return " ".join(repr(float(n)) for n in numbers)

@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from estimators.calibration import DEG
-from estimators.kinematics import skid_steer_track
+from estimators.kinematics import SkidSteer
 from estimators.localizers.calibration import GyroCalibration, LidarCalibration, RobotCalibration
 from gt_env.config.sections import RobotConfig
+from gt_env.config.shape import kinematics
 
 if TYPE_CHECKING:
     from gt_env.config.schema import EnvConfig
@@ -79,6 +80,5 @@ def robot_calibration(c: EnvConfig) -> RobotCalibration:
 
 def _turning_track(robot: RobotConfig) -> float:
     """Track of the robot with two driven wheels that turns as this one does [m]."""
-    if robot.model == "skid_steer":
-        return skid_steer_track(robot.track, robot.wheelbase)
-    return robot.track
+    motion = kinematics(robot)
+    return motion.equivalent.track if isinstance(motion, SkidSteer) else robot.track

@@ -78,7 +78,7 @@ def kinematics(robot: RobotConfig) -> Kinematics:
     """How its wheels and its motion hang together."""
     radius, track, wheelbase = robot.wheel_radius, robot.track, robot.wheelbase
     if robot.model == "skid_steer":
-        return SkidSteer(radius=radius, track=track, wheelbase=wheelbase)
+        return SkidSteer(radius=radius, track=track, wheelbase=wheelbase, turning_track=robot.turning_track)
     if robot.model == "ackermann":
         return Ackermann(radius=radius, track=track, wheelbase=wheelbase)
     if robot.model == "omni3":
@@ -106,7 +106,7 @@ def robot_shape(robot: RobotConfig, target: TargetConfig) -> RobotShape:
         size=(length, width, height),
         middle=(middle, 0.0, robot.ground_clearance + 0.5 * height),
         wheels=_wheels(robot),
-        casters=balls if robot.model == "differential" and not robot.urdf else (),
+        casters=balls if robot.model == "differential" else (),
         wheel_radius=robot.wheel_radius,
         wheel_width=robot.wheel_width,
     )
