@@ -90,9 +90,9 @@ def calibrate(recording: Recording, believed: EnvConfig) -> CalibrationRun:
 
 def quantity_table(run: CalibrationRun) -> Table:
     """One row per quantity; what was simulated beside it, where that is known."""
-    head = ["quantity", "unit", "believed", "found", "standard error"]
+    head = ["quantity", "unit", "believed", "found", "std error"]
     if run.true is not None:
-        head += ["simulated", "error / standard error"]
+        head += ["simulated", "error / std error"]
     rows = []
     for i, quantity in enumerate(QUANTITIES):
         unit, factor = SHOWN[quantity.unit]

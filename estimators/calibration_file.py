@@ -194,8 +194,9 @@ def read_calibration(path: Path | str) -> CalibrationFile:
 
 
 def _explain(error: ValidationError) -> str:
-    """The first error: key, value, what is allowed."""
-    item = error.errors(include_url=False)[0]
+    """The first error: key, value, what is allowed; a misspelt key goes before what is missing because of it."""
+    items = error.errors(include_url=False)
+    item = next((i for i in items if i["type"] == "unexpected_keyword_argument"), items[0])
     key = ".".join(str(part) for part in item["loc"])
     if item["type"] == "unexpected_keyword_argument":
         allowed = Station.__dataclass_fields__ if len(item["loc"]) > 1 else _Content.__dataclass_fields__
