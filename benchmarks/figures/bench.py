@@ -22,7 +22,7 @@ def bench_figure(rows: Sequence[Row]) -> Figure:
     """One panel per group, a bar per row from 1 to its ratio, whiskers at the quartiles."""
     groups = {group: [row for row in rows if row.group == group] for group in GROUPS}
     groups = {group: found for group, found in groups.items() if found}
-    counts = [len(found) for found in groups.values()]
+    counts = [len(found) * (2 if group == "cost" else 1) for group, found in groups.items()]  # two lines each
     height = BAR * sum(counts) + 0.62 * len(counts)
     figure, axes = new_figure(WIDTH, height, rows=len(counts), height_ratios=counts)
     for ax, (group, found) in zip(axes, groups.items(), strict=True):
@@ -53,7 +53,9 @@ def _draw(ax: Axes, rows: Sequence[Row]) -> None:
             fontsize=7,
         )
     ax.axvline(1, color="#555555", lw=0.8)
-    ax.set_yticks(place, [row.what for row in rows], fontsize=7)
+    # A cost may be compared with several things; elsewhere the title says with what.
+    labels = [f"{row.what}\n/ {row.against}" if is_cost else row.what for row in rows]
+    ax.set_yticks(place, labels, fontsize=7, linespacing=1.3)
     ax.invert_yaxis()
     ax.grid(visible=False, axis="y")
     ax.tick_params(axis="y", length=0)
