@@ -20,6 +20,7 @@ from benchmarks.recording import (
     save_recording,
 )
 from benchmarks.recording import writer as writer_module
+from benchmarks.recording.encoding import encode
 from estimators import (
     ImageFrame,
     ImuSample,
@@ -309,3 +310,47 @@ def test_recorder_keeps_what_came_between_start_and_stop(tmp_path):
     recorder.start()
     recorder.discard()
     assert sorted(os.listdir(tmp_path / "runs")) == ["recording-001.mcap", "recording-002.mcap"]
+
+
+def test_the_robots_own_sensors_come_back_bit_for_bit(tmp_path):
+    scan = LaserScan(
+        stamp=0.1,
+        source="robot/lidar",
+        ranges=np.linspace(0.3, 5, 72, dtype=np.float32),
+        bearing_min=-np.pi,
+        bearing_increment=np.pi / 36,
+        range_min=0.1,
+        range_max=12.0,
+    )
+    sample = ImuSample(stamp=0.1, yaw_rate=0.1 / 3, acceleration=[1 / 7, -1 / 9])
+    with RecordingWriter(tmp_path / "r.mcap") as writer:
+        writer.write(sample)
+        writer.write(scan)
+    imu, lidar = read_recording(tmp_path / "r.mcap").messages
+
+    assert (imu.source, imu.stamp, imu.yaw_rate) == ("robot/imu", 0.1, 0.1 / 3)
+    assert imu.acceleration.tolist() == [1 / 7, -1 / 9]
+    assert lidar.source == "robot/lidar"
+    assert np.array_equal(lidar.ranges, scan.ranges)
+    assert (lidar.bearing_min, lidar.range_min, lidar.range_max) == (-np.pi, 0.1, 12.0)
+
+
+def test_a_scan_of_the_robots_lidar_is_in_a_frame_of_its_own():
+    of = {
+        source: json.loads(
+            encode(
+                LaserScan(
+                    stamp=0.0,
+                    source=source,
+                    ranges=[1.0],
+                    bearing_min=0.0,
+                    bearing_increment=0.1,
+                    range_max=2.0,
+                )
+            )[1]
+        )
+        for source in ("station/lrf", "robot/lidar")
+    }
+
+    assert of["station/lrf"]["frame_id"] == "station"
+    assert of["robot/lidar"]["frame_id"] == "robot/lidar"
