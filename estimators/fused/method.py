@@ -14,7 +14,7 @@ from estimators.clock import on_lrf_clock
 from estimators.fused.motion import Holonomic, MotionModel, Unicycle
 from estimators.fused.readings import MarkerReading, PositionReading
 from estimators.fused.track import Track
-from estimators.marker_fit import MarkerFit
+from estimators.marker_fit import MarkerFit, MarkerMeasurement
 from estimators.messages import ImageFrame, LaserScan, Message, PoseEstimate
 from estimators.poses import Array, Pose2
 from estimators.scan_model import PositionFix, ScanModel
@@ -35,7 +35,7 @@ TURNED_AFTER: Final = 10
 """Frames in a row that see the target and do not pass the gate after which the heading starts anew."""
 REMEMBERED: Final = 64
 """Messages that are recognised when they come again."""
-UNMODELLED: Final = np.diag(np.square([1e-4, 1e-4, 5e-5]))
+UNMODELLED: Final = np.diag(np.square([2e-5, 2e-5, 5e-5]))
 """Covariance of what no measurement shows: the target's lean, play of the mount, uneven floor [m^2, rad^2]."""
 AGREE: Final = 0.3
 """Fixes of two scans in a row that lie this near are of the same target [m]."""
@@ -85,6 +85,7 @@ class FusedEstimator:
         self._track: Track | None = None
         self._lost: PoseEstimate | None = None  # the last estimate before the target was lost
         self._fix: PositionReading | None = None  # the last one that was believed
+        self._seen: MarkerMeasurement | None = None  # the last frame's
         self._fix_stamp = self._yaw_stamp = -math.inf  # of what was accepted last
         self._missed = self._refused = 0
         self._known: deque[tuple[type, str, float]] = deque(maxlen=REMEMBERED)
@@ -156,6 +157,7 @@ class FusedEstimator:
         seen = markers.measure(frame, *self._target(self._track, frame.stamp))
         if seen is None:
             return
+        seen = self._seen = seen.steadied(self._seen) if self._seen else seen
         reading = MarkerReading(seen, self._mount)
         if not self._track.oriented or self._refused >= TURNED_AFTER:
             if self._fix is None or abs(frame.stamp - self._fix.stamp) > BLIND_AFTER:

@@ -16,10 +16,12 @@ from estimators.fused.motion import BIASES, CREEP, Mode, MotionModel
 from estimators.poses import Array, wrap_angle
 
 YAW: Final = 2
-UNLIKELY: Final = 1e-3
-"""Probability of a mode below which it has no say in what the gate lets in."""
-LEAST_WEIGHT: Final = 1e-6
-"""Probability that every mode keeps, so that it can come back."""
+STOPPED: Final = 0.05, 0.5
+"""Speed [m/s] and turn rate [rad/s] from which a robot can come to rest within a frame or two."""
+LEAST_WEIGHT: Final = 1e-12
+"""Probability that every mode keeps; next to what comes in from the others it is nothing."""
+LEAST_OPEN: Final = 1e-4
+"""How open the way into rest always is, so that a mode at rest is never without a state that makes sense."""
 Measured = Callable[[Array], tuple[Array, Array]]
 """What states (M, n) would measure: (M, k), and its derivatives (M, k, n)."""
 
@@ -59,7 +61,8 @@ class ModeFilter:
     def __init__(self, model: MotionModel) -> None:
         self.model = model
         self._rest = np.array([m.at_rest for m in model.modes])
-        self._speeds = slice(YAW + 1, model.size - BIASES)
+        self._speeds = slice(YAW + 1, YAW + 1 + len(model.speed_sigmas))
+        self._stops = np.square([STOPPED[0]] * (len(model.speed_sigmas) - 1) + [STOPPED[1]])
         self._densities = np.square([(m.acceleration, m.turning) for m in model.modes])
 
     def start(self, x: float, y: float, yaw: float) -> None:
@@ -70,7 +73,8 @@ class ModeFilter:
         P = np.zeros((n, n))
         P[:3, :3] = np.eye(3)
         P[self._speeds, self._speeds] = np.diag(np.square(self.model.speed_sigmas))
-        P[-BIASES:, -BIASES:] = np.eye(BIASES)
+        rest = range(self._speeds.stop, n)
+        P[rest, rest] = 1.0
         self.P = np.tile(P, (m, 1, 1))
         self._stop_resting()
         self.weights = np.full(m, 1 / m)
@@ -83,7 +87,8 @@ class ModeFilter:
             Q = self.model.noise(x, dt, self._densities)
             x[self._rest] = self.x[self._rest]
             F[self._rest] = np.eye(self.model.size)
-            Q[self._rest, :3, :3] = dt * np.diag(CREEP)
+            Q[self._rest] = 0.0
+            Q[:, (0, 1, 2), (0, 1, 2)] += dt * CREEP
             self.x, self.P = x, F @ self.P @ F.transpose(0, 2, 1) + Q
             self._stop_resting()
 
@@ -119,7 +124,7 @@ class ModeFilter:
         S = H @ PHt + R
         S_inverse = np.linalg.inv(S)
         distance = (residual[:, None, :] @ S_inverse @ residual[:, :, None])[:, 0, 0]
-        accepted = bool(distance[self.weights > UNLIKELY].min() <= gate)
+        accepted = bool(distance.min() <= gate)
         innovation = self._mixed_innovation(residual, S, accepted)
         if not accepted:
             return innovation
@@ -140,8 +145,19 @@ class ModeFilter:
         return x[0], P[0]
 
     def _mix(self, dt: float) -> None:
-        """Let modes switch: each starts from a mixture of all."""
-        joint = switching(self.model.modes, dt) * self.weights[:, None]
+        """Let modes switch: each starts from a mixture of all.
+
+        What drives must slow down before it rests: the way into a mode at rest is as open as the speeds are small.
+        """
+        chances = switching(self.model.modes, dt)
+        speeds, P = self.x[:, self._speeds], self.P[:, self._speeds, self._speeds]
+        distance = np.einsum(
+            "mi,mi->m", speeds, np.linalg.solve(P + np.diag(self._stops), speeds[..., None])[..., 0]
+        )
+        closed = chances[:, self._rest] * (1.0 - np.maximum(np.exp(-0.5 * distance), LEAST_OPEN))[:, None]
+        chances[:, self._rest] -= closed
+        chances[np.diag_indices_from(chances)] += closed.sum(axis=1)
+        joint = chances * self.weights[:, None]
         weights = joint.sum(axis=0)
         self.x, self.P = _mixtures(joint / weights, self.x, self.P)
         self.weights = weights
@@ -158,11 +174,20 @@ class ModeFilter:
 
 
 def switching(modes: tuple[Mode, ...], dt: float) -> Array:
-    """Probabilities (M, M) that a mode (row) has become another (column) after `dt` [s]."""
+    """Probabilities (M, M) that a mode (row) has become another (column) after `dt` [s].
+
+    All others are equally likely, but between rest and steady driving there is always a change of speed: only the
+    modes of the greatest acceleration begin or end at rest.
+    """
     m = len(modes)
-    stay = np.exp([-dt / mode.duration for mode in modes]) if m > 1 else np.ones(1)
-    chances = np.repeat(((1 - stay) / max(m - 1, 1))[:, None], m, axis=1)
-    np.fill_diagonal(chances, stay)
+    rest = np.array([mode.at_rest for mode in modes])
+    accelerations = np.array([mode.acceleration for mode in modes])
+    steady = ~rest & (accelerations < accelerations.max())
+    others = 1.0 - np.eye(m)
+    others[np.ix_(rest, steady)] = others[np.ix_(steady, rest)] = 0.0
+    leave = -np.expm1([-dt / mode.duration for mode in modes])
+    chances: Array = others * (leave / np.maximum(others.sum(axis=1), 1.0))[:, None]
+    chances[np.diag_indices(m)] = 1.0 - chances.sum(axis=1)
     return chances
 
 

@@ -14,13 +14,18 @@ import numpy as np
 
 from estimators.poses import Array
 
-BIASES: Final = 4
-"""Biases of the image's bearing and yaw, and of the scan's fix along and across the line of sight: the last states
-of every model, each in units of its standard deviation."""
+BIASES: Final = 7
+"""Biases of what is measured: the last states of every model, each in units of its standard deviation. Of the image:
+two for the pixels that markers' edges fall on, one for those of the target's limbs, one for its shape, one for its
+width; of the scan's fix: along and across the line of sight."""
 
 
 CREEP: Final = np.square([1e-4, 1e-4, 1e-4])
-"""What a robot at rest still moves: growth of the variance of x, y, yaw [m^2/s, rad^2/s]."""
+"""What a robot moves beyond what its speeds say, also at rest: growth of the variance of x, y, yaw [m^2/s, rad^2/s]."""
+SLIP: Final = 0.005
+"""How fast wheels creep sideways under a sideways acceleration, standard deviation [m/s per m/s^2]: half a degree on a
+turn of 1 m radius at 1 m/s. Small, but a camera that knows bearings to a hundredth of a degree would otherwise take it
+for a distance."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -72,31 +77,37 @@ class MotionModel(Protocol):
 
 
 class Unicycle:
-    """A robot that moves along its heading only: states x, y, yaw, v, omega and the biases.
+    """A robot that moves along its heading only: states x, y, yaw, v, omega, slip and the biases.
 
-    Coordinated turn with white-noise acceleration: over `dt` it drives the chord of its arc.
+    Coordinated turn with white-noise acceleration: over `dt` it drives the chord of its arc. In a turn it slips
+    outwards or inwards, always by the same share of v omega: `slip`, in units of `SLIP`, is unknown but constant.
     """
 
-    size = 5 + BIASES
+    size = 6 + BIASES
     speed_sigmas: tuple[float, ...] = (0.7, 3.0)
     modes: tuple[Mode, ...] = (
         Mode(name="rest", duration=10.0, acceleration=0.0, turning=0.0),
-        Mode(name="cruise", duration=3.0, acceleration=0.05, turning=0.10),
+        Mode(name="cruise", duration=3.0, acceleration=0.03, turning=0.05),
+        Mode(name="start or stop", duration=0.3, acceleration=1.0, turning=1.0),
         Mode(name="manoeuvre", duration=0.3, acceleration=1.0, turning=8.0),
     )
 
     def step(self, states: Array, dt: float) -> tuple[Array, Array]:
         """See `MotionModel`."""
-        yaw, v, omega = states[:, 2], states[:, 3], states[:, 4]
+        yaw, v, omega, slip = states[:, 2], states[:, 3], states[:, 4], SLIP * states[:, 5]
         middle = yaw + 0.5 * dt * omega
         c, s = np.cos(middle), np.sin(middle)
+        aside = slip * v * omega
+        vx, vy = v * c - aside * s, v * s + aside * c
         out = states.copy()
-        out[:, 0] += dt * v * c
-        out[:, 1] += dt * v * s
+        out[:, 0] += dt * vx
+        out[:, 1] += dt * vy
         out[:, 2] += dt * omega
         F = np.tile(np.eye(self.size), (len(states), 1, 1))
-        F[:, 0, 2], F[:, 0, 3], F[:, 0, 4] = -dt * v * s, dt * c, -0.5 * dt * dt * v * s
-        F[:, 1, 2], F[:, 1, 3], F[:, 1, 4] = dt * v * c, dt * s, 0.5 * dt * dt * v * c
+        F[:, 0, 2], F[:, 1, 2] = -dt * vy, dt * vx
+        F[:, 0, 3], F[:, 1, 3] = dt * (c - slip * omega * s), dt * (s + slip * omega * c)
+        F[:, 0, 4], F[:, 1, 4] = -dt * (0.5 * dt * vy + slip * v * s), dt * (0.5 * dt * vx + slip * v * c)
+        F[:, 0, 5], F[:, 1, 5] = -dt * SLIP * v * omega * s, dt * SLIP * v * omega * c
         F[:, 2, 4] = dt
         return out, F
 
@@ -129,9 +140,10 @@ class Holonomic:
     speed_sigmas: tuple[float, ...] = (0.7, 0.7, 3.0)
     modes: tuple[Mode, ...] = (
         Mode(name="rest", duration=10.0, acceleration=0.0, turning=0.0),
-        Mode(name="cruise", duration=3.0, acceleration=0.05, turning=0.10),
+        Mode(name="cruise", duration=3.0, acceleration=0.03, turning=0.05),
         # To turn at a constant speed is to accelerate sideways.
         Mode(name="turn", duration=3.0, acceleration=0.35, turning=0.10),
+        Mode(name="start or stop", duration=0.3, acceleration=1.2, turning=1.0),
         Mode(name="manoeuvre", duration=0.3, acceleration=1.2, turning=8.0),
     )
 

@@ -14,19 +14,25 @@ from estimators.poses import Array, Pose2
 from estimators.scan_model import PositionFix
 
 YAW: Final = 2
-IMAGE_BIASES: Final = slice(0, 2)
-SCAN_BIASES: Final = slice(2, 4)
+IMAGE_BIASES: Final = slice(0, 5)
+SCAN_BIASES: Final = slice(5, 7)
 MOST_LASTING: Final = 0.95
 """Largest share of a frame's variance that is taken to last; the rest keeps the filter well conditioned."""
-PLAY: Final = 1e-4
-"""How well axis and middle of the target are one: its lean, play of the mount, an uneven floor [m]. Without it
-bearings of a hundredth of a milliradian, which depend on the distance a little, would be believed as ranges."""
+MOST_ASIDE: Final = 0.8
+"""Largest share of a bearing's variance that limbs and shape are taken for."""
+SHAPE_TURN: Final = 0.2
+"""Turn of the target over which errors of its shape are replaced by others [rad]: a fifth of the angle between
+markers, which are what the camera compares."""
 ALONG_SHARE: Final = 0.2
 """Share of a scan fix's deviation along the line of sight that stays as long as the same beams meet the target."""
 ACROSS_BEAMS: Final = 0.15
 """Deviation of what stays across it, in spacings between beams (simulated at 1 to 4 m: 0.12 to 0.16)."""
 FRESH_SHARE: Final = 0.45
 """Share of a scan fix's deviation across the line of sight that is fresh in every scan (simulated: 0.38 to 0.48)."""
+SAME_BEAMS: Final = 0.2
+"""How far the target moves across until what stays is another, in spacings between beams. Between two positions at
+which a beam begins or ceases to meet it, half a spacing apart on average, the error runs from one end to the other:
+a sawtooth is no longer like itself after a fifth of its period, and opposite after half."""
 
 
 class Reading(Protocol):
@@ -56,7 +62,7 @@ class Reading(Protocol):
         """What states (M, n) would read (M, k), and the derivatives (M, k, n)."""
 
     def kept(self, before: Self, velocities: Array) -> Array:
-        """Share of its biases (M, 2) that is left of those of the reading before of its kind.
+        """Share of its biases (M, k) that is left of those of the reading before of its kind.
 
         Args:
             before: That reading.
@@ -130,11 +136,11 @@ class PositionReading:
         return target + biases @ lasting.T, H
 
     def kept(self, before: PositionReading, velocities: Array) -> Array:
-        """See `Reading`: gone once the target has moved by one beam."""
+        """See `Reading`."""
         axes, distance = self._sight()
         moved = np.abs(velocities @ axes) * abs(self.stamp - before.stamp)
         beams = (moved[:, 0] * 0.1 + moved[:, 1]) / (distance * self.bearing_increment)
-        return np.repeat(np.clip(1 - beams, 0.0, 1.0)[:, None] ** 2, 2, axis=1)
+        return np.repeat(np.clip(1 - beams / SAME_BEAMS, 0.0, 1.0)[:, None], 2, axis=1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,13 +167,28 @@ class MarkerReading:
 
     @property
     def bias_share(self) -> float:
-        """Share of the variance that lasts."""
+        """Share of the variance that lasts as long as the image stays."""
         return min(self.seen.systematic, MOST_LASTING)
 
     @property
     def R(self) -> Array:  # noqa: N802
         """See `Reading`."""
-        return (1 - self.bias_share) * self.seen.covariance
+        return (1 - self.bias_share) * self._spread
+
+    @property
+    def _aside(self) -> Array:
+        """What one standard deviation of limbs and shape does: bearing and yaw (2,) in columns [rad]."""
+        covariance, seen = self.seen.covariance, self.seen
+        sigma = np.array([seen.limb_error, seen.shape_error / seen.distance])
+        # They are part of the frame's own covariance, and the yaw follows the bearing as it does there.
+        least = math.sqrt(MOST_ASIDE * float(covariance[0, 0]))
+        sigma *= min(1.0, least / max(float(np.hypot(*sigma)), 1e-12))
+        return np.outer([1.0, covariance[0, 1] / covariance[0, 0]], sigma)
+
+    @property
+    def _spread(self) -> Array:
+        """Covariance (2, 2) of bearing and yaw without these [rad^2]."""
+        return self.seen.covariance - self._aside @ self._aside.T
 
     @property
     def angles(self) -> Array:
@@ -187,18 +208,25 @@ class MarkerReading:
         slopes[:, :, :2] -= seen.sensitivity[:, None] * ray[:, None, :]
         slopes[:, :, YAW] = np.einsum("mki,mi->mk", slopes[:, :, :2], turn)
         slopes[:, 1, YAW] += 1.0
-        play = np.array([(PLAY / seen.distance) ** 2, PLAY**2])
-        lasting = np.sqrt(self.bias_share * np.diag(seen.covariance) + play)
-        slopes[:, 0, n - BIASES], slopes[:, 1, n - BIASES + 1] = lasting
+        lasting = np.column_stack(
+            [
+                math.sqrt(self.bias_share) * np.linalg.cholesky(self._spread),
+                self._aside,
+                seen.sensitivity * seen.scale_error * seen.distance,
+            ]
+        )
+        slopes[:, :, n - BIASES :][:, :, IMAGE_BIASES] = lasting
         reading = np.stack([np.arctan2(d[:, 1], d[:, 0]), states[:, YAW] + self.mount.yaw], axis=1)
         reading -= seen.sensitivity * (distance - seen.distance)[:, None]
-        return reading + lasting * states[:, -BIASES:][:, IMAGE_BIASES], slopes
+        return reading + states[:, -BIASES:][:, IMAGE_BIASES] @ lasting.T, slopes
 
     def kept(self, before: MarkerReading, velocities: Array) -> Array:
-        """See `Reading`: gone once the image has moved by a pixel."""
-        share = self.seen.systematic
-        repeated = self.seen.correlation(before.seen) / share if share > 0 else 0.0
-        return np.full((len(velocities), 2), repeated)
+        """See `Reading`."""
+        seen, earlier = self.seen, before.seen
+        image, limbs = seen.repeats(earlier), seen.repeats_limbs(earlier)
+        turned = seen.yaw - seen.bearing - earlier.yaw + earlier.bearing
+        shape = math.exp(-abs(math.remainder(turned, 2 * math.pi)) / SHAPE_TURN)
+        return np.tile([image, image, limbs, shape, shape], (len(velocities), 1))
 
     def first_pose(self, target: Array) -> Pose2:
         """Pose of the base if the target is at a position (2,) [m] and looks as it does."""

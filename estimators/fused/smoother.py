@@ -90,7 +90,7 @@ def _forward(track: Track, moments: Sequence[Moment], modes: Array) -> list[_Ste
         P = A @ P @ A.T + fade[:, None] * Q * fade + np.diag(1 - fade**2)
         predicted, P_predicted = x, P
         if chance[rest].sum() > RESTS:
-            speeds = np.eye(n)[3 : n - BIASES]
+            speeds = np.eye(n)[3 : 3 + len(model.speed_sigmas)]
             x, P = _update(x, P, -(speeds @ x), speeds, STANDS**2 * np.eye(len(speeds)))
         if moment.accepted:
             expected, H = reading.expected(x[None])

@@ -166,5 +166,8 @@ class MarkerFit:
             misfit=solution.misfit,
             quantised=problem.quantised,
             systematic=max(problem.systematic, 1 - 1 / max(1.0, solution.misfit)),
+            limb_error=problem.lasting_limb * math.cos(axis) ** 2 / self._camera.focal,
+            shape_error=problem.middle_error,
+            scale_error=problem.scale_error,
             view=np.array([float(self._camera.column(axis)), turn * self._camera.focal]),
         )

@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from estimators.poses import Array, wrap_angle
+
+SAME_PIXELS = 0.5
+"""How far the view moves until its pixels say something else [px]: with several edges in the picture some edge passes
+a pixel's middle well before that."""
+
+STEADY = 0.9
+"""Weight of what was before in the sensitivity of a view that stays."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -32,6 +39,12 @@ class MarkerMeasurement:
         quantised: Whether the frame has one sample a pixel. The error is then where the edges fall between
             samples: the same view repeats it exactly, and averaging over frames does not shrink it.
         systematic: Share of the variance that another frame of the same view repeats.
+        limb_error: Part of the bearing's deviation that lasts while the target's limbs fall on the same pixels,
+            however it turns [rad].
+        shape_error: How far the middle between the limbs may lie beside the target's axis, standard deviation [m];
+            it lasts while the target shows the same side.
+        scale_error: Standard deviation of the image's scale, as a share: what the width of the target, and with it
+            the sensitivity, may be off.
         view: (2,) where the pixel grid lies on the target [px]: column of the axis, and turn of the
             circumference nearest to the camera.
     """
@@ -48,6 +61,9 @@ class MarkerMeasurement:
     misfit: float
     quantised: bool
     systematic: float
+    limb_error: float
+    shape_error: float
+    scale_error: float
     view: Array
 
     def expected(self, x: float, y: float, yaw: float) -> tuple[Array, Array]:
@@ -76,5 +92,22 @@ class MarkerMeasurement:
         filter must not take n frames of one view for n measurements. It can skip a frame whose correlation
         with the last one used is near 1, or inflate the covariance of a frame by 1 / (1 - correlation).
         """
+        return self.systematic * self.repeats(earlier)
+
+    def repeats(self, earlier: MarkerMeasurement) -> float:
+        """How much of its systematic error this frame shares with an earlier one, 0 ... 1."""
         moved = float(np.abs(self.view - earlier.view).max())
-        return self.systematic * max(0.0, 1.0 - moved) ** 2
+        return max(0.0, 1.0 - moved / SAME_PIXELS)
+
+    def repeats_limbs(self, earlier: MarkerMeasurement) -> float:
+        """The same for the limbs alone, which do not mind that the target turns."""
+        return max(0.0, 1.0 - abs(float(self.view[0] - earlier.view[0])) / SAME_PIXELS)
+
+    def steadied(self, earlier: MarkerMeasurement) -> MarkerMeasurement:
+        """The same with a sensitivity that follows an earlier frame's as far as the view is the same.
+
+        Pixel noise moves the sensitivity and the yaw together. Frames of one view that differed in both would seem
+        to say at which distance they agree.
+        """
+        share = STEADY * self.repeats(earlier)
+        return replace(self, sensitivity=self.sensitivity + share * (earlier.sensitivity - self.sensitivity))

@@ -12,6 +12,9 @@ from estimators.calibration import TargetGeometry
 from estimators.poses import Array
 
 Flags = NDArray[np.bool_]
+GRAZING = 0.06
+"""Angle from the tangent within which an end is partly taken for the limb [rad]: there it lies within two thousandths
+of a radius of it, and noise must not decide which of the two moves it."""
 
 
 class Outline(NamedTuple):
@@ -24,6 +27,7 @@ class Outline(NamedTuple):
         marker_slopes: (K, 2, 3) their derivatives.
         foot: (K, 2) how far that end moves if the cylinder's surface lies deeper [px/m]; 0 for corners.
         seen: (K, 2) whether that end stands on the side of the cylinder that faces the camera.
+        clear: (K, 2) the same as a number from 0 to 1 that passes smoothly from one to the other.
     """
 
     limbs: Array
@@ -32,6 +36,7 @@ class Outline(NamedTuple):
     marker_slopes: Array
     foot: Array
     seen: Flags
+    clear: Array
 
 
 class TargetOutline:
@@ -89,7 +94,9 @@ class TargetOutline:
         slopes = np.stack([scaled - by_turn, by_turn, scaled * sin / square], axis=-1)
         foot = np.where(pick % 2 == 1, np.abs(sin) * f / (reach * d), 0.0)
         # Beyond the tangent point (cos = radius / d for a point of the cylinder) an edge is hidden.
-        return Outline(limbs, limb_slopes, columns[rows, pick], slopes, foot, cos * d > reach * radius)
+        facing = cos / reach - radius / d
+        clear = np.clip(0.5 + facing / (2 * GRAZING), 0.0, 1.0)
+        return Outline(limbs, limb_slopes, columns[rows, pick], slopes, foot, facing > 0, clear)
 
     def widths(self, pose: Array) -> Array:
         """Width (K,) [px] at which each marker is seen from a pose (bearing, yaw, distance)."""

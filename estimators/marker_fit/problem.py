@@ -24,6 +24,12 @@ MOST_MIXED = 0.2
 """Where pixels average over their area most edges cut one; up to this share may seem to where they do not."""
 SAMPLED_SHAPE = 0.0006
 """How far a renderer that samples draws facets off the cylinder's tangent, standard deviation [m]."""
+SAMPLED_LIMB = 0.12
+"""Deviation of a bearing that markers on ever other pixels leave of it [px] (simulated: 0.11)."""
+SHAPE = 1e-5
+"""The same of a renderer that does not [m]."""
+LIMB_PX = 0.01
+"""How well blur, and which pixels are used, leave the width [px]."""
 SAMPLED_ERROR = 12**-0.5
 """Standard deviation of all three where a pixel is one sample: uniform over a pixel."""
 
@@ -32,6 +38,8 @@ BLUR = 0.12
 """Standard deviation of a share in a profile that was interpolated."""
 NOISE_AT_LIMB = 2.4
 """How much more pixel noise moves a limb than a share: colours differ less there, over more pixels."""
+LIMB_SIGMAS = 3.0
+"""Within so many standard deviations of a limb a column may be cut by it."""
 REACH = 2
 """Pixels beside a patch that are compared, too."""
 FAINT = np.diag([1.0, 1.0, 0.0])
@@ -80,9 +88,36 @@ class Problem:
         return SAMPLED_ERROR if self.quantised else math.hypot(self.model_error, self.noise)
 
     @property
+    def column_errors(self) -> Array:
+        """Standard deviations (m,) of the shares.
+
+        A column that the limb may cut shows some of what is behind the target: it counts the less the more it may be
+        cut, rather than not at all, for a pixel's noise must not decide what is used.
+        """
+        left, right = self.limbs + LIMB_SIGMAS * self.limb_error * np.array([1, -1])
+        outside = np.maximum(left - (self.columns - 0.5), self.columns + 0.5 - right)
+        return np.asarray(np.hypot(self.share_error, np.maximum(outside, 0.0)))
+
+    @property
     def systematic(self) -> float:
         """Share of the variance that is not pixel noise."""
         return 1.0 if self.quantised else (self.model_error / self.share_error) ** 2
+
+    @property
+    def lasting_limb(self) -> float:
+        """What of a limb's error no turn of the target takes from the middle between both [px]."""
+        return SAMPLED_LIMB if self.quantised else 0.0
+
+    @property
+    def middle_error(self) -> float:
+        """Standard deviation of the middle between the limbs, for the target's shape alone [m]."""
+        return (SAMPLED_SHAPE if self.quantised else SHAPE) / math.sqrt(2)
+
+    @property
+    def scale_error(self) -> float:
+        """Standard deviation of the distance between the limbs, as a share."""
+        limb = math.hypot(self.shape_error if self.quantised else 0, LIMB_PX)
+        return limb / math.sqrt(2) / (0.5 * abs(float(self.limbs[1] - self.limbs[0])))
 
     @property
     def limb_error(self) -> float:
@@ -105,11 +140,11 @@ class Problem:
     def visible(self, outline: Outline) -> tuple[Array, Array]:
         """Ends (N, 2) [px] of the used markers as far as they are seen, and slopes (N, 2, 3)."""
         ends, slopes = outline.markers[self.markers], outline.marker_slopes[self.markers]
-        seen = outline.seen[self.markers]
+        clear = outline.clear[self.markers]
         # A hidden end is where the cylinder ends, on the same side.
         side = (ends > outline.limbs.mean()).astype(int)
-        ends = np.where(seen, ends, outline.limbs[side])
-        return ends, np.where(seen[..., None], slopes, outline.limb_slopes[side])
+        limbs, limb_slopes = outline.limbs[side], outline.limb_slopes[side]
+        return limbs + clear * (ends - limbs), limb_slopes + clear[..., None] * (slopes - limb_slopes)
 
 
 def pose_problem(
@@ -133,9 +168,7 @@ def pose_problem(
         hue = swallowed[found.markers[i]]
         if float(runs.hues[i] @ hue) < 0.9 * float(np.sqrt(hue @ hue)):
             hue = (runs.hues[i] > 0.4 * runs.hues[i].max()).astype(float)  # a false colour
-        near[max(int(runs.ends[i, 0]) - REACH, 1) : min(int(runs.ends[i, 1]) + REACH + 1, len(share) - 1)] = (
-            True
-        )
+        near[max(int(runs.ends[i, 0]) - REACH, 0) : int(runs.ends[i, 1]) + REACH + 1] = True
         share[part] = runs.absorbed[part] @ (hue / float(hue @ hue))
     return Problem(
         limbs=np.array(silhouette.edges),

@@ -61,7 +61,8 @@ def feasible_poses(problem: Problem, outline: TargetOutline, start: Solution) ->
     mean = weight @ shifts
     rest = shifts - mean
     covariance = (rest * weight[:, None]).T @ rest + RESOLUTION**2 * spread
-    return Solution(start.pose + mean, np.linalg.inv(covariance), start.misfit)
+    misfit = float(weight @ np.einsum("ij,ij->i", outside, outside)) / len(middles)
+    return Solution(start.pose + mean, np.linalg.inv(covariance), misfit)
 
 
 def outline_rows(problem: Problem, seen: np.ndarray) -> Array:

@@ -5,17 +5,19 @@ from estimators.fused.mode_filter import ModeFilter
 from estimators.fused.motion import BIASES, Holonomic, Mode, Unicycle
 
 STATES = {
-    Unicycle: [[1.0, 2.0, 0.7, 0.4, -1.2, 0.3, -0.2, 0.1, 0.5], [-2.0, 1.0, -3.0, -0.3, 2.0, 0, 0, 0, 0]],
-    Holonomic: [
-        [1.0, 2.0, 0.7, 0.4, 0.2, -1.2, 0.3, -0.2, 0.1, 0.5],
-        [-2.0, 1, -3, -0.3, 0.1, 2, 0, 0, 0, 0],
-    ],
+    Unicycle: [[1.0, 2.0, 0.7, 0.4, -1.2, 0.8], [-2.0, 1.0, -3.0, -0.3, 2.0, -1.5]],
+    Holonomic: [[1.0, 2.0, 0.7, 0.4, 0.2, -1.2], [-2.0, 1.0, -3.0, -0.3, 0.1, 2.0]],
 }
+
+
+def states_of(model):
+    """Two states (2, n) with biases."""
+    return np.hstack([STATES[type(model)], [np.linspace(-0.5, 0.5, BIASES), np.zeros(BIASES)]])
 
 
 @pytest.mark.parametrize("model", [Unicycle(), Holonomic()])
 def test_the_derivatives_of_the_motion_are_those_of_finite_differences(model):
-    states, dt, h = np.array(STATES[type(model)]), 0.1, 1e-6
+    states, dt, h = states_of(model), 0.1, 1e-6
     _, F = model.step(states, dt)
 
     for j in range(model.size):
@@ -26,8 +28,8 @@ def test_the_derivatives_of_the_motion_are_those_of_finite_differences(model):
 
 @pytest.mark.parametrize("model", [Unicycle(), Holonomic()])
 def test_the_noise_of_two_steps_is_that_of_one_twice_as_long(model):
-    states = np.array(STATES[type(model)])
-    states[:, 3:-BIASES] = 0.0
+    states = states_of(model)
+    states[:, 3:-BIASES] = 0.0  # the heading stays what it is
     q = np.array([[0.04, 0.3], [1.0, 5.0]])
     F = model.step(states, 0.1)[1]
     once = model.noise(states, 0.1, q)
@@ -38,7 +40,7 @@ def test_the_noise_of_two_steps_is_that_of_one_twice_as_long(model):
 
 @pytest.mark.parametrize("model", [Unicycle(), Holonomic()])
 def test_only_motion_along_the_heading_is_noisy_for_a_unicycle(model):
-    states = np.array(STATES[type(model)])
+    states = states_of(model)
     states[:, 4 if isinstance(model, Unicycle) else 5] = 0.0
     Q = model.noise(states, 0.1, np.ones((2, 2)))
     for yaw, block in zip(states[:, 2], Q[:, :2, :2], strict=True):
@@ -131,11 +133,11 @@ def test_forgotten_biases_are_fresh_again():
     f.start(0.0, 2.0, 0.0)
     f.P = f.P * 0.25
     kept = f.x, f.P
-    f.forget(slice(2, 4), np.zeros((3, 2)))
+    f.forget(slice(2, 4), np.zeros((len(f.x), 2)))
 
-    assert (np.diagonal(f.P, axis1=1, axis2=2)[:, -2:] == 1).all()
-    assert (np.diagonal(f.P, axis1=1, axis2=2)[:, -4:-2] == 0.25).all()
-    assert (np.diagonal(kept[1], axis1=1, axis2=2)[:, -2:] == 0.25).all()
+    assert (np.diagonal(f.P, axis1=1, axis2=2)[:, -BIASES + 2 : -BIASES + 4] == 1).all()
+    assert (np.diagonal(f.P, axis1=1, axis2=2)[:, -BIASES : -BIASES + 2] == 0.25).all()
+    assert (np.diagonal(kept[1], axis1=1, axis2=2)[:, -BIASES:] == 0.25).all()
 
 
 def test_a_mode_says_whether_it_is_at_rest():

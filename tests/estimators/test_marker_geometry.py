@@ -93,6 +93,9 @@ def measurement():
         misfit=0.5,
         quantised=False,
         systematic=0.5,
+        limb_error=0.0,
+        shape_error=1e-5,
+        scale_error=1e-3,
         view=np.zeros(2),
     )
 
