@@ -17,9 +17,12 @@ from gymnasium.utils import RecordConstructorArgs
 from numpy.typing import NDArray
 
 from estimators.calibration import Calibration
+from estimators.errors import ConfigError
+from estimators.kinematics import moved
 from estimators.messages import LaserScan
 from estimators.poses import Array, Pose2
 from gt_env.config.sections import RobotConfig
+from gt_env.config.shape import kinematics
 from gt_env.tasks.features import POLAR, polar_features
 
 WINDOW: Final = 30
@@ -28,7 +31,7 @@ GATE: Final = 4.0
 """A beam hits the target if it is shorter than the empty room says by so many standard deviations."""
 KNOWN: Final = 0.05
 """Spread of a track along which its direction counts as half known [m]."""
-FRAME: Final = 30
+FRAME: Final = 10
 """Ramps of the motors within a step are followed at so many moments."""
 
 
@@ -66,18 +69,26 @@ class CommandTrack:
     """Where ideal wheels would have gone by the commands, with the motors' ramps.
 
     Args:
-        robot: Two driven wheels.
+        robot: Whose action is its wheels' speeds.
         step: [s].
+
+    Raises:
+        ConfigError: If the robot is steered.
     """
 
     def __init__(self, robot: RobotConfig, step: float) -> None:
+        if robot.model == "ackermann":
+            raise ConfigError(
+                "robot.model = 'ackermann': observes = 'scan' is for robots that are not steered"
+            )
         self._robot, self._step = robot, step
+        self._kinematics = kinematics(robot)
         self.reset()
 
     def reset(self) -> None:
         """Stand at the origin."""
         self.pose = Pose2()
-        self._speeds = np.zeros(2)
+        self._speeds = np.zeros(self._kinematics.wheels)
 
     def drive(self, action: Array) -> Pose2:
         """Take a step; returns where one is then."""
@@ -89,14 +100,8 @@ class CommandTrack:
             np.abs(change), robot.max_wheel_acceleration * times
         )
         self._speeds = speeds[-1]
-        way = dt * robot.wheel_radius * speeds.mean(axis=1)
-        turn = dt * robot.wheel_radius * (speeds[:, 1] - speeds[:, 0]) / robot.track
-        yaw = self.pose.yaw + np.cumsum(turn) - 0.5 * turn
-        self.pose = Pose2(
-            x=self.pose.x + float(way @ np.cos(yaw)),
-            y=self.pose.y + float(way @ np.sin(yaw)),
-            yaw=self.pose.yaw + float(turn.sum()),
-        )
+        for moment in speeds:
+            self.pose = moved(self.pose, self._kinematics.twist(moment), dt)
         return self.pose
 
 

@@ -1,8 +1,11 @@
 """The environments with a task."""
 
+import warnings
+
 import gymnasium as gym
 import numpy as np
 import pytest
+from gymnasium.utils.env_checker import check_env
 
 from estimators import ConfigError, GroundTruthWrapper
 from gt_env import load_config
@@ -185,3 +188,16 @@ def test_the_fast_camera_shows_the_obstacles_that_are_drawn(task_env):
 def test_unknown_options_are_refused(task_env):
     with pytest.raises(ConfigError, match="'aim'"):
         task_env("Reach").reset(options={"aim": (0.0, 1.0)})
+
+
+@pytest.mark.parametrize("name", IDS)
+@pytest.mark.parametrize("model", ["skid_steer", "ackermann", "omni3"])
+def test_every_robot_passes_both_libraries_checks_at_every_task(name, model):
+    checker = pytest.importorskip("stable_baselines3.common.env_checker")
+    config = {**BLIND, "robot": {"model": model}}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for check in (check_env, checker.check_env):
+            env = gym.make(f"gt_env:gt_env/{name}-v0", config=config).unwrapped
+            check(env)
+            env.close()
