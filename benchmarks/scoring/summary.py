@@ -126,9 +126,9 @@ def _score(name: str, runs: Sequence[JudgedRun], reference: str, seed: int) -> S
     if not there:
         return None
     errors = [judged.errors for _, judged in there if judged.errors is not None]
-    understated = REFERENCES[reference].understated
+    model = REFERENCES[reference]
     quantities = {q: [e.quantities[q] for e in errors] for q in errors[0].quantities}
-    scores = {q: corrected(of, understated) for q, of in quantities.items()}
+    scores = {q: corrected(of, model.allowance(q)) for q, of in quantities.items()}
     resampled = run_units(there)
     nees = [e.nees for e in errors if e.nees is not None]
     nees_true = [e.nees_true for e in errors if e.nees_true is not None]

@@ -145,7 +145,7 @@ def _health(order: Sequence[SubjectSummary]) -> Table:
         "latency [ms]",
         "largest",
         "update [us]",
-        "what",
+        "failures",
     )
     note = "NEES: of the localizer's covariance and the station's together; 3 is honest, more too sure."
     return Table(title="Covariance, availability, latency", head=head, rows=tuple(rows), note=note)
