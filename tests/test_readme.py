@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from benchmarks.report.readme import readme_table
+
 README = Path(__file__).parents[1] / "README.md"
 
 
@@ -25,3 +27,21 @@ def test_every_link_leads_somewhere():
 
     assert links
     assert [link for link in links if not (README.parent / link).exists()] == []
+
+
+def test_the_table_of_results_has_the_rows_and_columns_that_reports_fill():
+    numbers = {"rmse_xy_mm": 3.14, "max_xy_mm": 15.0, "max_yaw_deg": 6.44}
+    methods = ("thesis", "fused", "smooth")
+    report = {
+        "static": {m: {"all": {"mae": [1.04, 2.0, 0.02]}} for m in methods},
+        "moving": {d: {m: numbers for m in methods} for d in ("path", "spin", "tour")},
+    }
+    expected = readme_table({"simtwo": report, "thesis": report}).splitlines()
+    lines = README.read_text().splitlines()
+    shown = lines[lines.index(expected[0]) :][: len(expected)]
+
+    assert [line.split("|")[1:3] for line in shown] == [line.split("|")[1:3] for line in expected]
+    assert {line.count("|") for line in shown} == {expected[0].count("|")}
+    assert expected[2].split("|")[3:5] == [" 1.0 / 2.0 ", " 1.0 / 2.0 "]
+    assert expected[3].split("|")[3] == " 0.020 "
+    assert expected[-1].split("|")[3] == " 6.4 "
