@@ -14,6 +14,9 @@ from benchmarks.figures.style import PUBLISHED, WIDTH, new_figure
 Judged = Mapping[str, Mapping[str, Consistency]]
 """By situation and then by method."""
 
+LEAST, MOST = 0.1, 5.0
+"""Between what the axis of the NEES reaches at least; it is logarithmic."""
+
 
 def consistency_figure(judged: Judged, colors: Mapping[str, str]) -> Figure:
     """NEES a degree of freedom with the bounds of an honest method, and the coverage of the ellipses."""
@@ -35,12 +38,18 @@ def draw_nees(ax: Axes, rows: list[Consistency], name: str, colors: list[str]) -
         nees = row.nees[name]
         if nees.mean is None:
             continue
-        ax.plot([nees.low / k, nees.high / k], [i, i], color="#c9ccd2", lw=7, solid_capstyle="butt")
+        ax.plot(
+            [max(nees.low / k, LEAST), nees.high / k], [i, i], color="#c9ccd2", lw=7, solid_capstyle="butt"
+        )
         ax.plot(nees.mean / k, i, "o", color=color, ms=5)
         if nees.over_time is not None:
             ax.plot(nees.over_time / k, i, "|", color=color, ms=9, mew=1.2)
     ax.axvline(1.0, color=PUBLISHED, lw=0.8, ls=(0, (4, 2)))
-    ax.set_xlim(left=0)
+    ax.set_xscale("log")
+    ax.set_xlim(LEAST, max(MOST, 1.2 * ax.get_xlim()[1]))
+    ticks = [tick for tick in (0.3, 1, 3, 10, 30) if tick < ax.get_xlim()[1]]
+    ax.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    ax.minorticks_off()
     ax.grid(visible=False, axis="y")
 
 
