@@ -19,6 +19,7 @@ from gt_env.config import ConfigLike, EnvConfig, load_config
 from gt_env.config.onboard import robot_calibration
 from gt_env.config.schema import pose_problem
 from gt_env.render.overview import Overview
+from gt_env.render.station_map import Goal
 from gt_env.render.window import available as window_available
 from gt_env.render.window import why_unavailable
 from gt_env.world import World
@@ -157,7 +158,11 @@ class ArenaEnv(gym.Env[Observation, Array]):
         if self._overview is None:
             window = self.render_mode == "human"
             self._overview = Overview(self._world, self.believed_calibration, window)
-        return self._overview.draw(self._estimates, wait)
+        return self._overview.draw(self._estimates, wait, self._goal())
+
+    def _goal(self) -> Goal | None:
+        """What to mark on the map."""
+        return None
 
     def close(self) -> None:
         """Disconnect from the engine and close the window."""

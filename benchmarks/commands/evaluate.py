@@ -65,6 +65,7 @@ def evaluate(
     address: AddressOption = None,
     out: OutOption = Path("out/evaluate"),
     no_figures: NoFiguresOption = False,
+    video: Annotated[bool, typer.Option("--video", help="Also film each policy's first episode.")] = False,
 ) -> None:
     """Let policies drive the same episodes; judge each by the true pose and by what the station saw."""
     from benchmarks.evaluation.candidates import candidates
@@ -109,6 +110,10 @@ def evaluate(
             from benchmarks.evaluation.page import write_page
 
             write_page(folder, found)
+        if video:
+            from benchmarks.evaluation.video import write_videos
+
+            write_videos(folder, plan)
     for table in tables(found):
         console.print(rich_table(table))
     name = "report.json" if no_figures else "report.html"

@@ -5,8 +5,11 @@ from __future__ import annotations
 import shlex
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
+from time import perf_counter as clock
+from time import process_time
 from typing import Annotated
 
 import typer
@@ -115,6 +118,7 @@ def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
 
     training_env(run.task, run.config, run.settings).close()  # what is wrong with the set-up is said here
     run.write(folder)
+    wall, cpu = clock(), process_time()
     console = Console(stderr=True)
     bar = Progress(
         TextColumn("training {task.fields[name]}"),
@@ -132,8 +136,11 @@ def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
             raise TrainingStoppedError(
                 f"interrupted: {folder / POLICY} is saved; the same command with --resume goes on from it"
             ) from None
+    spent = {"seconds": clock() - wall, "cpu_seconds": process_time() - cpu}
+    spent = {key: value + run.setup.get(key, 0.0) for key, value in spent.items()}
+    replace(run, setup={**run.setup, **spent}).write(folder)
     Console().print(
-        f"{best_policy(folder)}: {done} steps; gt-env evaluate {folder} judges it",
+        f"{best_policy(folder)}: {done} steps in {clock() - wall:.0f} s; gt-env evaluate {folder} judges it",
         soft_wrap=True,
         highlight=False,
         markup=False,

@@ -15,7 +15,7 @@ from gt_env.render import style
 from gt_env.render.history import History
 from gt_env.render.map_view import MapView
 from gt_env.render.sheet import Sheet
-from gt_env.render.station_map import StationMap, grid_lines, round_step
+from gt_env.render.station_map import Goal, StationMap, grid_lines, round_step
 from gt_env.render.strip_chart import StripChart
 from gt_env.render.style import TITLE_HEIGHT, Color, Image, blend, draw_panel, fit_image, inside, put_text
 
@@ -97,6 +97,7 @@ class Dashboard:
         true_pose: Pose2,
         wheel_speeds: Sequence[float] | NDArray[np.floating[Any]],
         estimates: Mapping[str, PoseEstimate],
+        goal: Goal | None = None,
     ) -> Image:
         """Draw a frame.
 
@@ -109,6 +110,7 @@ class Dashboard:
             true_pose: Where the robot is.
             wheel_speeds: (n,) [rad/s].
             estimates: What is said about the robot's pose, by name; those without a fix too.
+            goal: Where the robot is to go.
 
         Returns:
             A new array (720, 1280, 3) uint8 RGB.
@@ -122,6 +124,8 @@ class Dashboard:
                 _say_missing(inside(frame, box), "not rendered" if box is _SCENE else "no camera image")
         if pan is not None:
             _caption(frame, _CAMERA, f"pan {pan / DEG:.1f} deg")
+        if goal is not None:
+            self._map.draw_goal(self._view, inside(frame, _MAP), goal)
         self._draw_map(inside(frame, _MAP), scan, pan, true_pose, estimates, colors)
         self._draw_close_up(inside(frame, _CLOSE_UP), scan, true_pose, estimates, colors)
         self._draw_legend(frame, scan is not None, colors)

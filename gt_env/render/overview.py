@@ -12,6 +12,7 @@ from estimators.messages import PoseEstimate
 from estimators.poses import Array, Pose2
 from estimators.thesis.position import ThesisLocalizer
 from gt_env.render.dashboard import Dashboard
+from gt_env.render.station_map import Goal
 from gt_env.render.window import Window
 from gt_env.software_camera import View
 from gt_env.world import World
@@ -49,12 +50,15 @@ class Overview:
         """Remember the present for trails and charts."""
         self._dashboard.record(self._world.time, self._true_pose(), estimates)
 
-    def draw(self, estimates: Mapping[str, PoseEstimate], wait: bool = True) -> NDArray[np.uint8] | None:
+    def draw(
+        self, estimates: Mapping[str, PoseEstimate], wait: bool = True, goal: Goal | None = None
+    ) -> NDArray[np.uint8] | None:
         """Draw the present; returns the picture unless it goes to a window.
 
         Args:
             estimates: What is said of the robot's pose, by name.
             wait: Whether a window keeps to the pace of real time, once per step.
+            goal: Where the robot is to go.
         """
         world, c = self._world, self._world.config
         self.record(estimates)
@@ -67,6 +71,7 @@ class Overview:
             true_pose=self._true_pose(),
             wheel_speeds=world.encoders.observe(),
             estimates=estimates,
+            goal=goal,
         )
         if self.window is None:
             return frame

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Final
 
 import cv2
@@ -21,6 +22,21 @@ BODY_COLOR: Final[Color] = (255, 146, 92)
 OUTSIDE_COLOR: Final[Color] = (238, 241, 246)
 SYMBOL_METRES: Final = 0.16
 """Size of the symbols of LRF and camera."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Goal:
+    """Where a robot is to go.
+
+    Attributes:
+        points: (K, 2) one after the other [m].
+        radius: How near to one is near enough [m].
+        is_path: Whether the line between them is to be driven.
+    """
+
+    points: Array
+    radius: float
+    is_path: bool = False
 
 
 class StationMap:
@@ -101,6 +117,17 @@ class StationMap:
         ranges, bearings = scan.ranges[returned].astype(float), scan.bearings[returned]
         ends = ranges[:, None] * np.stack([np.cos(bearings), np.sin(bearings)], axis=-1)
         return self._calibration.lrf.pose.apply(ends)
+
+    def draw_goal(self, view: MapView, canvas: Image, goal: Goal) -> None:
+        """Draw points as circles, the first one filled, or a path as a line with a circle at its end."""
+        if goal.is_path:
+            view.line(canvas, goal.points, style.GOAL_COLOR)
+        for i, point in enumerate(goal.points[-1:] if goal.is_path else goal.points):
+            around = np.linspace(0.0, 2 * np.pi, 33)
+            rim = point + goal.radius * np.stack([np.cos(around), np.sin(around)], axis=-1)
+            if i == 0:
+                view.fill(canvas, rim, style.GOAL_COLOR, opacity=0.25)
+            view.line(canvas, rim, style.GOAL_COLOR, 1, closed=True)
 
     def draw_robot(self, view: MapView, canvas: Image, pose: Pose2) -> None:
         """Draw the robot where it is: body, target with its markers, and a line along x."""

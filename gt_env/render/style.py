@@ -22,6 +22,7 @@ RULE: Final[Color] = (228, 232, 239)
 TRUE_COLOR: Final[Color] = (31, 41, 55)
 SCAN_COLOR: Final[Color] = (214, 60, 66)
 ZONE_COLOR: Final[Color] = (22, 150, 110)
+GOAL_COLOR: Final[Color] = (124, 58, 190)
 CAMERA_COLOR: Final[Color] = (240, 170, 30)
 ESTIMATE_COLORS: Final[tuple[Color, ...]] = (
     (29, 100, 242),

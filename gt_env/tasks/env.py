@@ -11,6 +11,7 @@ from estimators.errors import ConfigError
 from estimators.poses import Array, Pose2
 from gt_env.config import ConfigLike, EnvConfig, load_config
 from gt_env.env import ArenaEnv, Info, Observation
+from gt_env.render.station_map import Goal
 from gt_env.tasks.randomization import drawn, is_random
 from gt_env.tasks.task import Judgement, Moment, Task
 
@@ -85,6 +86,11 @@ class TaskEnv(ArenaEnv):
         truncated = info["t"] >= self.task.limit - 0.5 * self.config.timing.tick
         report = self._reported(info, judgement, collided)
         return self._seen(observation), judgement.reward, self._ends(judgement, info["t"]), truncated, report
+
+    def _goal(self) -> Goal:
+        return Goal(
+            points=self.task.goal, radius=self.config.task.goal_radius, is_path=self.task.goal_is_path
+        )
 
     def _ends(self, judgement: Judgement, t: float) -> bool:
         """Whether the episode ends here: a success may linger."""

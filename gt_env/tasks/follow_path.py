@@ -78,6 +78,7 @@ class FollowPath(Task):
     """Follow a path to its end; touching something or leaving the corridor ends the episode."""
 
     time_limit = 60.0
+    goal_is_path = True
     feature_names = (
         *POLAR,
         "cross_track",

@@ -96,6 +96,8 @@ class Task(ABC):
     """What a guide's features are."""
     ends_on_success: ClassVar[bool] = True
     """Whether there is nothing more to do after a success."""
+    goal_is_path: ClassVar[bool] = False
+    """Whether the line between the goal's points is to be driven."""
     term_names: ClassVar[tuple[str, ...]] = COMMON_TERMS
     """What the reward is made of."""
 

@@ -3,6 +3,7 @@
 import json
 import re
 
+import cv2
 import numpy as np
 import pytest
 from typer.testing import CliRunner
@@ -128,11 +129,13 @@ def test_the_page_shows_ways_and_tables(tmp_path):
     for package in ("pybullet", "matplotlib", "jinja2"):
         pytest.importorskip(package)
     asked = ["polar", "--task", "patrol", "--episodes", "1", "--estimate", "surrogate", "--set",
-             "task.time_limit=2.0", "--jobs", "1", "--out", str(tmp_path)]  # fmt: skip
+             "task.time_limit=1.0", "--jobs", "1", "--video", "--out", str(tmp_path)]  # fmt: skip
     done = CliRunner().invoke(app, ["evaluate", *asked])
 
     assert done.exit_code == 0, done.output
-    assert {p.name for p in tmp_path.iterdir()} == {"report.json", "report.html", "ways.png"}
+    assert {p.name for p in tmp_path.iterdir()} == {"report.json", "report.html", "ways.png", "polar.mp4"}
+    film = cv2.VideoCapture(str(tmp_path / "polar.mp4"))
+    assert (film.get(cv2.CAP_PROP_FRAME_COUNT), film.get(cv2.CAP_PROP_FPS)) == (10, 10)
     page = (tmp_path / "report.html").read_text()
     assert page.count("data:image/png") == 1
     assert "way-points / min" in page

@@ -98,6 +98,18 @@ def test_a_success_may_linger(task_env):
     assert times[-1] - times[0] == pytest.approx(0.5)
 
 
+@pytest.mark.parametrize("name", ["Reach", "FollowPath"])
+def test_the_map_shows_where_to_go(task_env, name):
+    env = task_env(name, render_mode="rgb_array")
+    violet = [0, 0]
+    for seed in range(2):
+        env.reset(seed=seed)
+        picture = env.render().astype(int)[36:468, 426:1268]
+        violet[seed] = (np.abs(picture - (124, 58, 190)).sum(axis=2) < 60).nonzero()
+        assert len(violet[seed][0]) > 20
+    assert violet[0][0].mean() != violet[1][0].mean()  # it moves with the goal
+
+
 def test_driving_into_a_wall_is_a_collision_and_the_end(task_env):
     env = task_env("Reach")
     env.reset(seed=0, options={"pose": (3.5, 2.0, 0.0), "goal": (0.0, 2.0)})
