@@ -145,11 +145,6 @@ def _camera_problems(c: EnvConfig) -> Iterator[str]:
             f"{1 / camera.rate:g} s"
         )
     if camera.renderer == "fast":
-        if camera.enabled and c.robot.model != "differential":
-            yield (
-                f"robot.model = {c.robot.model!r}: camera.renderer = 'fast' draws the 'differential' one only: use "
-                f"camera.renderer = 'tiny'"
-            )
         if camera.roll_deg and camera.enabled:
             # Its columns are upright planes; a rolled pixel lies across several of them.
             yield (

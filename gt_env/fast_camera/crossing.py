@@ -52,6 +52,15 @@ def cut_disc(depth: float, right: float, radius: float, k: float) -> tuple[float
 
 
 @compiled
+def from_wheel(scene: Tables, placed: Placed, i: int, k: float) -> tuple[float, float, float, float]:
+    """The eye and the way per depth in a column, forward and to the left as a wheel sees them."""
+    c, s = scene.wheels[i, 4], scene.wheels[i, 5]
+    x, y = placed.robot[0] - scene.wheels[i, 0], placed.robot[1] - scene.wheels[i, 1]
+    dx, dy = placed.robot[2] + k * placed.robot[4], placed.robot[3] + k * placed.robot[5]
+    return c * x + s * y, c * y - s * x, c * dx + s * dy, c * dy - s * dx
+
+
+@compiled
 def see_wheel(
     scene: Tables, placed: Placed, i: int, k: float
 ) -> tuple[float, float, float, float, float, float]:
@@ -60,9 +69,8 @@ def see_wheel(
     The side is +1 or -1 along the axle and 0 where only the tread is seen; the depth [m] is where the wheel
     begins. Nothing seen: top below low.
     """
-    y, radius, width = scene.wheels[i, 0], scene.wheels[i, 1], scene.wheels[i, 2]
-    x0, x1 = placed.robot[0], placed.robot[2] + k * placed.robot[4]
-    y0, y1 = placed.robot[1] - y, placed.robot[3] + k * placed.robot[5]
+    radius, width = scene.wheels[i, 2], scene.wheels[i, 3]
+    x0, y0, x1, y1 = from_wheel(scene, placed, i, k)
     x1 = x1 if abs(x1) > 1e-9 else 1e-9
     y1 = y1 if abs(y1) > 1e-9 else 1e-9
     reach, half = radius / abs(x1), 0.5 * width / abs(y1)
@@ -94,9 +102,9 @@ def see_wheel(
 
 @compiled
 def tread_normal(scene: Tables, placed: Placed, i: int, k: float, slope: float) -> tuple[float, float, float]:
-    """Normal of a wheel's tread where a ray meets it, x and z in the robot's frame, and the depth there."""
-    radius = scene.wheels[i, 1]
-    x0, x1 = placed.robot[0], placed.robot[2] + k * placed.robot[4]
+    """Normal of a wheel's tread where a ray meets it, forward and up as the wheel rolls, and the depth there."""
+    radius = scene.wheels[i, 2]
+    x0, _, x1, _ = from_wheel(scene, placed, i, k)
     z0 = scene.eye[2] - radius
     a, b = x1 * x1 + slope * slope, x0 * x1 + z0 * slope
     rest = max(b * b - a * (x0 * x0 + z0 * z0 - radius * radius), 0.0)

@@ -31,9 +31,10 @@ def shade_all(scene: Tables, lamp: Floats, albedo: Floats, normal: Floats) -> Fl
 
 def wheel_layers(scene: Tables, placed: Placed, k: Floats, i: int) -> list[Layer]:
     """The outline as `crossing.see_wheel` has it, in two shades: the flat side and the tread."""
-    y, radius, width = scene.wheels[i]
-    x0, x1 = placed.robot[0], placed.robot[2] + k * placed.robot[4]
-    y0, y1 = placed.robot[1] - y, placed.robot[3] + k * placed.robot[5]
+    x, y, radius, width, c, s = scene.wheels[i]
+    ex, ey = placed.robot[0] - x, placed.robot[1] - y
+    dx, dy = placed.robot[2] + k * placed.robot[4], placed.robot[3] + k * placed.robot[5]
+    x0, y0, x1, y1 = c * ex + s * ey, c * ey - s * ex, c * dx + s * dy, c * dy - s * dx
     x1, y1 = (np.where(np.abs(v) > 1e-9, v, 1e-9) for v in (x1, y1))
     reach, half = radius / np.abs(x1), 0.5 * width / np.abs(y1)
     by_x, by_y = -x0 / x1, -y0 / y1
@@ -56,11 +57,14 @@ def wheel_layers(scene: Tables, placed: Placed, k: Floats, i: int) -> list[Layer
         (up - rise(first)) / first,
         (up - rise(at_low)) / at_low,
     )
-    top, face, under, low = (np.where(seen, scene.lens[2] - scene.lens[0] * s, -BEYOND) for s in slopes)
+    top, face, under, low = (
+        np.where(seen, scene.lens[2] - scene.lens[0] * slope, -BEYOND) for slope in slopes
+    )
     toward = np.where(x0 + x1 * at_top > 0, 1.0, -1.0)
-    tread_normal = np.stack([toward * 0.7, 0 * k, 0 * k + 0.7], axis=1)
+    tread_normal = np.stack([c * toward * 0.7, s * toward * 0.7, 0 * k + 0.7], axis=1)
     tread = shade_all(scene, placed.robot_lamp, scene.wheel_color, tread_normal)
-    side_normal = np.stack([0 * k, np.where(y1 > 0, -1.0, 1.0), 0 * k], axis=1)
+    facing = np.where(y1 > 0, -1.0, 1.0)
+    side_normal = np.stack([-s * facing, c * facing, 0 * k], axis=1)
     side = shade_all(scene, placed.robot_lamp, scene.wheel_color, side_normal)
     flat = by_y - half > by_x - reach
     return [
@@ -73,7 +77,7 @@ def ball_layers(scene: Tables, placed: Placed, k: Floats) -> list[Layer]:
     """Casters, each in one shade a column."""
     layers = []
     stretch = np.sqrt(1 + k * k)
-    for i in np.argsort(-placed.casters[:, 0]):
+    for i in np.argsort(-placed.casters[: scene.caster_count, 0]):
         depth, right = placed.casters[i]
         up, radius = scene.casters[i, 2] - scene.eye[2], scene.casters[i, 3]
         beside, along = (right - k * depth) / stretch, (depth + k * right) / stretch

@@ -195,25 +195,23 @@ def _robot_depth(scene: Tables, placed: Placed, k: Floats) -> Floats:
     body, _, _ = _cut_boxes(placed.corners[BODY : BODY + 1], k)
     target, _ = _cut_disc(placed.target, scene.target[2], k)
     depth = np.minimum(body[0], target)
-    return np.asarray(np.where(depth == NOTHING, placed.target[0] - scene.wheels[0, 1], depth))
+    return np.asarray(np.where(depth == NOTHING, placed.target[0] - scene.wheels[0, 2], depth))
 
 
 def _robot(scene: Tables, placed: Placed, k: Floats) -> list[Layer]:
     """As `column._robot`: from back to front."""
-    eye_y, eye_z = placed.robot[1], scene.eye[2]
+    eye_z = scene.eye[2]
     far: list[Layer] = []
     near: list[Layer] = []
-    for i in range(2):
-        y = abs(scene.wheels[i, 0]) - 0.5 * scene.wheels[i, 2]
-        beyond = np.sign(scene.wheels[i, 0]) * eye_y <= y
-        (far if beyond else near).extend(wheel_layers(scene, placed, k, i))
+    for i in placed.wheel_order[: scene.wheel_count]:
+        (near if placed.wheel_near[i] else far).extend(wheel_layers(scene, placed, k, i))
     body = _far_first(scene, _boxes(scene, placed, k, BODY, 1))
     balls = ball_layers(scene, placed, k)
     chassis = [*balls, *body] if eye_z > scene.heights[BODY, 0] else [*body, *balls]
     target = _target(scene, placed, k)
     if eye_z <= scene.target[3]:
         return [*target, *far, *chassis, *near]
-    if scene.target[3] < 2 * scene.wheels[0, 1]:
+    if scene.target[3] < 2 * scene.wheels[0, 2]:
         return [*far, *chassis, *target, *near]
     return [*far, *chassis, *near, *target]
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gt_env.fast_camera.solids import Floats
-from gt_env.fast_camera.tables import MOST_BOXES, MOST_LAMPS, MOST_PILLARS, record
+from gt_env.fast_camera.tables import MOST_BOXES, MOST_LAMPS, MOST_PILLARS, MOST_WHEELS, record
 
 MOST_SHADOWS = 2 * MOST_LAMPS
 EDGES = 2048
@@ -32,7 +32,9 @@ PLACED = np.dtype(
         ("casters", "f8", (2, 2)),
         ("pillars", "f8", (MOST_PILLARS, 2)),
         ("pillar_span", "f8", (MOST_PILLARS, 2)),
-        ("window", "f8", 6),
+        ("window", "f8", 2 + 2 * MOST_WHEELS),
+        ("wheel_order", "i8", MOST_WHEELS),
+        ("wheel_near", "i8", MOST_WHEELS),
         ("turned", "f8", (4, 2)),
         ("cosines", "f8", MOST_LAMPS),
         ("shadow_rows", "f8", (MOST_SHADOWS, 4)),
@@ -60,7 +62,9 @@ class Placed(Protocol):
         casters: (2, 2) of their middles [m].
         pillars: (P, 2) of their axes [m].
         pillar_span: (P, 2) first and last column of each [px].
-        window: (6,) first and last column of the robot, of the left and of the right wheel [px].
+        window: (2 + 2 W,) first and last column of the robot, then of each wheel [px].
+        wheel_order: (W,) the wheels, farthest first.
+        wheel_near: (W,) 1 for a wheel on the eye's side of the body.
         turned: (4, 2) scratch: the body's corners in other axes [m].
         cosines: (L,) scratch: between a curved face's normal and the lamps.
         shadow_rows: (MOST_SHADOWS, 4) scratch: upper and lower border of shadows, left and right [px].
@@ -82,6 +86,8 @@ class Placed(Protocol):
     pillars: Floats
     pillar_span: Floats
     window: Floats
+    wheel_order: NDArray[np.int64]
+    wheel_near: NDArray[np.int64]
     turned: Floats
     cosines: Floats
     shadow_rows: Floats

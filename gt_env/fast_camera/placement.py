@@ -124,17 +124,19 @@ def _place_round(scene: Tables, placed: Placed) -> None:
     placed.target[0], placed.target[1] = depth, right
     first, last = limbs(scene, placed, depth, right, scene.target[2])
     low, high = min(low, first), max(high, last)
-    for i in range(len(scene.casters)):
+    for i in range(scene.caster_count):
         depth, right = from_robot(placed, scene.casters[i, 0], scene.casters[i, 1])
         placed.casters[i, 0], placed.casters[i, 1] = depth, right
         first, last = limbs(scene, placed, depth, right, scene.casters[i, 3])
         low, high = min(low, first), max(high, last)
-    for i in range(len(scene.wheels)):
-        radius, half = scene.wheels[i, 1], 0.5 * scene.wheels[i, 2]
+    _order_wheels(scene, placed)
+    for i in range(scene.wheel_count):
+        radius, half = scene.wheels[i, 2], 0.5 * scene.wheels[i, 3]
         first, last, behind = math.inf, -math.inf, 0
         for corner in range(4):
-            x = radius if corner % 2 else -radius
-            y = scene.wheels[i, 0] + (half if corner // 2 else -half)
+            along, across = radius if corner % 2 else -radius, half if corner // 2 else -half
+            x = scene.wheels[i, 0] + along * scene.wheels[i, 4] - across * scene.wheels[i, 5]
+            y = scene.wheels[i, 1] + along * scene.wheels[i, 5] + across * scene.wheels[i, 4]
             depth, right = from_robot(placed, x, y)
             if depth < scene.lens[3]:
                 behind += 1
@@ -150,6 +152,27 @@ def _place_round(scene: Tables, placed: Placed) -> None:
         placed.window[2 + 2 * i], placed.window[3 + 2 * i] = first, last
         low, high = min(low, first), max(high, last)
     placed.window[0], placed.window[1] = low, high
+
+
+@compiled
+def _order_wheels(scene: Tables, placed: Placed) -> None:
+    """Which wheel is painted after which: the farther first, and those beyond the body before it."""
+    eye_x, eye_y = placed.robot[0], placed.robot[1]
+    for i in range(scene.wheel_count):
+        x, y, half = scene.wheels[i, 0], scene.wheels[i, 1], 0.5 * scene.wheels[i, 3]
+        axle_x, axle_y = -scene.wheels[i, 5], scene.wheels[i, 4]
+        out = axle_x * x + axle_y * y
+        side = 1.0 if out > 0.0 else -1.0
+        placed.wheel_near[i] = 1 if side * (axle_x * eye_x + axle_y * eye_y) > side * out - half else 0
+        n = i
+        away = (x - eye_x) ** 2 + (y - eye_y) ** 2
+        while n > 0:
+            before = placed.wheel_order[n - 1]
+            if (scene.wheels[before, 0] - eye_x) ** 2 + (scene.wheels[before, 1] - eye_y) ** 2 >= away:
+                break
+            placed.wheel_order[n] = before
+            n -= 1
+        placed.wheel_order[n] = i
 
 
 @compiled

@@ -24,7 +24,7 @@ def robot_depth(scene: Tables, placed: Placed, k: float) -> float:
     first, _, _ = cut_box(placed.corners[BODY], k)
     depth, _ = cut_disc(placed.target[0], placed.target[1], scene.target[2], k)
     first = min(first, depth)
-    for i in range(2):
+    for i in range(scene.wheel_count):
         top, _, _, low, _, depth = see_wheel(scene, placed, i, k)
         if top > low:
             first = min(first, depth)
@@ -35,28 +35,28 @@ def robot_depth(scene: Tables, placed: Placed, k: float) -> float:
 def paint_robot(scene: Tables, placed: Placed, bands: Bands, ka: float, kb: float, middle: float) -> float:
     """The robot with its target."""
     cut = 1.0
-    eye_y, eye_z = placed.robot[1], scene.eye[2]
+    eye_z = scene.eye[2]
     above_body = eye_z > scene.target[3]
     if not above_body:
         cut = min(cut, _target(scene, placed, bands, ka, kb, middle))
-    for i in range(2):  # wheels on the far side of the body
-        side = 1.0 if scene.wheels[i, 0] > 0.0 else -1.0
-        if side * eye_y <= side * scene.wheels[i, 0] - 0.5 * scene.wheels[i, 2]:
+    for n in range(scene.wheel_count):  # wheels on the far side of the body
+        i = placed.wheel_order[n]
+        if not placed.wheel_near[i]:
             cut = min(cut, paint_wheel(scene, placed, bands, i, ka, kb, middle))
-    if eye_z > scene.heights[BODY, 0]:
+    if eye_z > scene.heights[BODY, 0] and scene.caster_count:
         cut = min(cut, paint_casters(scene, placed, bands, ka, kb))
     if placed.span[BODY, 0] <= middle <= placed.span[BODY, 1]:
         cut = min(cut, paint_box(scene, placed, bands, BODY, ka, kb))
-    if eye_z <= scene.heights[BODY, 0]:
+    if eye_z <= scene.heights[BODY, 0] and scene.caster_count:
         cut = min(cut, paint_casters(scene, placed, bands, ka, kb))
-    if above_body and scene.target[3] < 2 * scene.wheels[0, 1]:
+    if above_body and scene.target[3] < 2 * scene.wheels[0, 2]:
         # The target reaches below the wheels' tops, so that it is beside them, not above.
         cut = min(cut, _target(scene, placed, bands, ka, kb, middle))
-    for i in range(2):
-        side = 1.0 if scene.wheels[i, 0] > 0.0 else -1.0
-        if side * eye_y > side * scene.wheels[i, 0] - 0.5 * scene.wheels[i, 2]:
+    for n in range(scene.wheel_count):
+        i = placed.wheel_order[n]
+        if placed.wheel_near[i]:
             cut = min(cut, paint_wheel(scene, placed, bands, i, ka, kb, middle))
-    if above_body and scene.target[3] >= 2 * scene.wheels[0, 1]:
+    if above_body and scene.target[3] >= 2 * scene.wheels[0, 2]:
         cut = min(cut, _target(scene, placed, bands, ka, kb, middle))
     return cut
 

@@ -12,7 +12,7 @@ from estimators.errors import ConfigError
 from estimators.room import Room
 from gt_env.config import EnvConfig
 from gt_env.config.sections import Color
-from gt_env.config.shape import CASTER_GAP, CASTER_RADIUS
+from gt_env.config.shape import CASTER_RADIUS, robot_shape
 from gt_env.fast_camera.compiling import COMPILED
 from gt_env.fast_camera.light import planck_gain
 from gt_env.fast_camera.solids import (
@@ -32,7 +32,7 @@ FLOOR, BODY, MARKERS = 0, 1, 2
 the walls and last the obstacles."""
 
 
-MOST_WALLS, MOST_MARKERS, MOST_LAMPS, MOST_OBSTACLES = 64, 24, 8, 32
+MOST_WALLS, MOST_MARKERS, MOST_LAMPS, MOST_OBSTACLES, MOST_WHEELS = 64, 24, 8, 32, 4
 """Room in the tables, whose shapes are fixed so that the kernel is compiled once for all scenes."""
 POST_RADIUS = 0.02
 """Of the posts that carry the sensors [m]."""
@@ -54,8 +54,10 @@ SCENE = np.dtype(
         ("room", "f8", (MOST_WALLS, 2)),
         ("target", "f8", 5),
         ("target_color", "f8", 3),
-        ("wheels", "f8", (2, 3)),
+        ("wheels", "f8", (MOST_WHEELS, 6)),
+        ("wheel_count", "i8"),
         ("casters", "f8", (2, 4)),
+        ("caster_count", "i8"),
         ("wheel_color", "f8", 3),
         ("wheel_levels", "f8"),
         ("pillars", "f8", (MOST_PILLARS, 4)),
@@ -90,8 +92,10 @@ class Tables(Protocol):
         room: (V, 2) inner corners of the walls [m].
         target: (5,) x, y in the robot's frame, radius, lower and upper end [m].
         target_color: (3,).
-        wheels: (2, 3) y, radius, width [m].
+        wheels: (W, 6) x, y of the middle, radius, width [m], cosine and sine of the direction that it rolls in.
+        wheel_count: Number of wheels.
         casters: (2, 4) x, y, z, radius [m].
+        caster_count: Number of casters, 2 or none.
         wheel_color: (3,) of wheels and casters.
         wheel_levels: Grey levels between the brightest and the darkest part of a wheel.
         pillars: (P, 4) x, y, radius, upper end [m] of upright cylinders on the floor: sensors' posts, obstacles.
@@ -119,7 +123,9 @@ class Tables(Protocol):
     target: Floats
     target_color: Floats
     wheels: Floats
+    wheel_count: int
     casters: Floats
+    caster_count: int
     wheel_color: Floats
     wheel_levels: float
     pillars: Floats
@@ -151,8 +157,9 @@ def tables(config: EnvConfig, room: Room, gain: float, temperature: float) -> Ta
     tint = gain * planck_gain(temperature)
     walls = wall_corners(room, config.room.wall_thickness)
     markers = marker_corners(config)
-    width = robot.track - robot.wheel_width - 0.004
-    body = rectangle(0.0, 0.0, 0.5 * robot.length, 0.5 * width, 0.0)
+    shape = robot_shape(robot, target)
+    body = rectangle(*shape.middle[:2], 0.5 * shape.size[0], 0.5 * shape.size[1], 0.0)
+    top = shape.middle[2] + 0.5 * shape.size[2]
     middle = 0.5 * (target.z_min + target.z_max)
     low, high = middle - 0.5 * target.marker_height, middle + 0.5 * target.marker_height
     boxes = [o for o in config.room.obstacles if o.shape == "box"]
@@ -165,22 +172,25 @@ def tables(config: EnvConfig, room: Room, gain: float, temperature: float) -> Ta
         *len(walls) * [config.room.wall_color],
         *(box.color for box in boxes),
     ]
-    caster = 0.5 * robot.length - 1.5 * CASTER_RADIUS
     corners = np.concatenate([[floor_corners(room)], [body], markers, walls, obstacle_corners(config)])
     scene = record(SCENE)
     scene.eye[:] = camera.position
     scene.lens[:] = focal, 0.5 * camera.width, 0.5 * camera.height, camera.near
     scene.boxes, scene.markers, scene.walls = len(corners), len(markers), len(walls)
     scene.corners[: len(corners)] = corners
-    scene.heights[: len(corners)] = [(-0.02, 0.0), (robot.ground_clearance, target.z_min), *tall]
+    scene.heights[: len(corners)] = [(-0.02, 0.0), (robot.ground_clearance, top), *tall]
     scene.colors[: len(corners)] = colors
     scene.feet[: len(markers)] = marker_feet(config)
     scene.convex = int(is_convex(room))
     scene.room[: len(walls)] = room.vertices
     scene.target[:] = *target.mount, target.radius, target.z_min, target.z_max
     scene.target_color[:] = target.color
-    scene.wheels[:] = [(side * 0.5 * robot.track, robot.wheel_radius, robot.wheel_width) for side in (1, -1)]
-    scene.casters[:] = [(side * caster, 0.0, CASTER_RADIUS + CASTER_GAP, CASTER_RADIUS) for side in (1, -1)]
+    scene.wheel_count, scene.caster_count = len(shape.wheels), len(shape.casters)
+    for i, wheel in enumerate(shape.wheels):
+        size = shape.wheel_radius, shape.wheel_width
+        scene.wheels[i] = wheel.x, wheel.y, *size, math.cos(wheel.yaw), math.sin(wheel.yaw)
+    for i, caster in enumerate(shape.casters):
+        scene.casters[i] = *caster, CASTER_RADIUS
     scene.wheel_color[:] = robot.wheel_color
     pillars = _pillars(config, focal)
     scene.pillar_count = len(pillars)
@@ -224,13 +234,17 @@ def _check(config: EnvConfig, room: Room) -> None:
             raise ConfigError(
                 f"{key} has {count} entries: camera.renderer = 'fast' draws at most {most}, 'tiny' any number"
             )
-    target, robot = config.target, config.robot
-    reach = abs(target.mount[1]) + target.radius
-    if target.z_min < 2 * robot.wheel_radius and reach > 0.5 * (robot.track - robot.wheel_width):
-        raise ConfigError(
-            f"target.radius = {target.radius}: the target reaches into a wheel; camera.renderer = 'fast' "
-            "cannot draw that, 'tiny' can"
-        )
+    target, shape = config.target, robot_shape(config.robot, config.target)
+    for wheel in shape.wheels if target.z_min < 2 * shape.wheel_radius else ():
+        # Of a wheel and the target, one must be beyond the wheel's inner side.
+        axle = np.array([-math.sin(wheel.yaw), math.cos(wheel.yaw)])
+        out = float(axle @ (wheel.x, wheel.y))
+        reach = math.copysign(1.0, out) * float(axle @ target.mount) + target.radius
+        if reach > abs(out) - 0.5 * shape.wheel_width:
+            raise ConfigError(
+                f"target.radius = {target.radius}: the target reaches into a wheel; camera.renderer = 'fast' "
+                "cannot draw that, 'tiny' can"
+            )
 
 
 def record(dtype: np.dtype[np.void]) -> Any:

@@ -38,11 +38,13 @@ def paint_wheel(
     low_a, low_b = _slopes(scene, at[3], low, bt[3])
     cut = 1.0
     if side != 0.0:
-        rgb = shade(scene, placed.robot_lamp, scene.wheel_color, 0.0, side, 0.0)
+        face_x, face_y = -side * scene.wheels[i, 5], side * scene.wheels[i, 4]
+        rgb = shade(scene, placed.robot_lamp, scene.wheel_color, face_x, face_y, 0.0)
         cut = min(cut, paint(bands, face_a, face_b, under_a, under_b, rgb))
         if scene.shadow:
             for n in range(scene.lamp_count):
-                placed.cosines[n] = max(side * placed.robot_lamp[n, 1], 0.0)
+                cosine = face_x * placed.robot_lamp[n, 0] + face_y * placed.robot_lamp[n, 1]
+                placed.cosines[n] = max(cosine, 0.0)
             cut = min(
                 cut,
                 upright_shadow(
@@ -100,8 +102,8 @@ def _tread(
                     scene,
                     placed,
                     placed.robot_lamp,
-                    nx,
-                    0.0,
+                    nx * scene.wheels[i, 4],
+                    nx * scene.wheels[i, 5],
                     nz,
                     depth,
                     k * depth,
