@@ -13,6 +13,7 @@ from estimators.calibration import Calibration
 from estimators.clock import on_lrf_clock
 from estimators.fused.motion import Holonomic, MotionModel, Unicycle
 from estimators.fused.readings import MarkerReading, PositionReading
+from estimators.fused.timeline import Timeline
 from estimators.fused.track import Track
 from estimators.marker_fit import MarkerFit, MarkerMeasurement
 from estimators.messages import ImageFrame, LaserScan, Message, PoseEstimate
@@ -49,7 +50,8 @@ class FusedEstimator:
     measurement passes a gate. Where several scans in a row do not, the target is lost: the last estimate is
     repeated as not valid, and the target is looked for everywhere until two scans in a row agree on where it is.
 
-    Messages may come late by half a second. Older ones, and such that were there before, are ignored.
+    Messages may come late by half a second. Older ones, and such that were there before, are ignored; so is a stamp
+    far from all others, until the messages that follow agree with it.
 
     Args:
         calibration: What is believed of station, target and room.
@@ -81,6 +83,11 @@ class FusedEstimator:
 
     def reset(self) -> None:
         """Forget everything that was measured."""
+        self._time = Timeline()
+        self._start_over()
+
+    def _start_over(self) -> None:
+        """Know nothing, as if the next message were the first."""
         self.tracks: list[Track] = []
         self._track: Track | None = None
         self._lost: PoseEstimate | None = None  # the last estimate before the target was lost
@@ -92,8 +99,13 @@ class FusedEstimator:
 
     def update(self, message: Message) -> PoseEstimate | None:
         """Take a scan or a frame; other messages are ignored."""
+        if not isinstance(message, LaserScan | ImageFrame):
+            return None
         message = on_lrf_clock(message, self._camera)
-        if self._comes_again(message) or self._too_old(message.stamp):
+        verdict = self._time.judge(message.stamp)
+        if verdict == "restart":
+            self._start_over()
+        if verdict == "ignore" or self._comes_again(message) or self._too_old(message.stamp):
             return None
         match message:
             case LaserScan():
@@ -120,8 +132,9 @@ class FusedEstimator:
         if self._track is None:
             self._look_everywhere(scan)
             return
+        velocity = self._track.velocity()
         target, covariance = self._target(self._track, scan.stamp)
-        fix = self._reading(scan, self._scans.measure(scan, target, covariance, self._track.velocity()))
+        fix = self._reading(scan, self._scans.measure(scan, target, covariance, velocity))
         innovation = self._track.take(fix) if fix else None
         if fix is not None and innovation is not None and innovation.accepted:
             self._missed, self._fix = 0, fix

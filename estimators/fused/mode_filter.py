@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -179,16 +180,24 @@ def switching(modes: tuple[Mode, ...], dt: float) -> Array:
     All others are equally likely, but between rest and steady driving there is always a change of speed: only the
     modes of the greatest acceleration begin or end at rest.
     """
+    ways, durations = _ways(modes)
+    chances: Array = ways * -np.expm1(-dt / durations)[:, None]
+    chances[np.diag_indices(len(modes))] = 1.0 - chances.sum(axis=1)
+    return chances
+
+
+@lru_cache
+def _ways(modes: tuple[Mode, ...]) -> tuple[Array, Array]:
+    """Where each mode (row) goes when it ends (M, M), and how long it lasts (M,) [s]."""
     m = len(modes)
     rest = np.array([mode.at_rest for mode in modes])
     accelerations = np.array([mode.acceleration for mode in modes])
     steady = ~rest & (accelerations < accelerations.max())
     others = 1.0 - np.eye(m)
     others[np.ix_(rest, steady)] = others[np.ix_(steady, rest)] = 0.0
-    leave = -np.expm1([-dt / mode.duration for mode in modes])
-    chances: Array = others * (leave / np.maximum(others.sum(axis=1), 1.0))[:, None]
-    chances[np.diag_indices(m)] = 1.0 - chances.sum(axis=1)
-    return chances
+    return others / np.maximum(others.sum(axis=1, keepdims=True), 1.0), np.array(
+        [mode.duration for mode in modes]
+    )
 
 
 def _mixtures(weights: Array, x: Array, P: Array) -> tuple[Array, Array]:

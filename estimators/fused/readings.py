@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final, Protocol, Self
 
 import numpy as np
@@ -145,10 +145,34 @@ class PositionReading:
 
 @dataclass(frozen=True, slots=True)
 class MarkerReading:
-    """Bearing and yaw of the target in a frame, each with a bias that lasts as long as the image stays."""
+    """Bearing and yaw of the target in a frame, with biases that last.
+
+    Attributes:
+        seen: What the frame said.
+        mount: Of the target on the robot.
+        R: See `Reading`.
+        lasting: What one standard deviation of each of its biases does to bearing and yaw (2, k) [rad].
+    """
 
     seen: MarkerMeasurement
     mount: Pose2
+    R: Array = field(init=False)
+    lasting: Array = field(init=False)
+
+    def __post_init__(self) -> None:
+        seen, covariance = self.seen, self.seen.covariance
+        # Limbs and shape are part of the frame's own covariance, and the yaw follows the bearing as it does there.
+        sigma = np.array([seen.limb_error, seen.shape_error / seen.distance])
+        most = math.sqrt(MOST_ASIDE * float(covariance[0, 0]))
+        sigma *= min(1.0, most / max(float(np.hypot(*sigma)), 1e-12))
+        aside = np.outer([1.0, covariance[0, 1] / covariance[0, 0]], sigma)
+        rest = covariance - aside @ aside.T
+        share = min(seen.systematic, MOST_LASTING)
+        scale = seen.sensitivity * seen.scale_error * seen.distance
+        object.__setattr__(self, "R", (1 - share) * rest)
+        object.__setattr__(
+            self, "lasting", np.column_stack([math.sqrt(share) * np.linalg.cholesky(rest), aside, scale])
+        )
 
     @property
     def stamp(self) -> float:
@@ -164,31 +188,6 @@ class MarkerReading:
     def biases(self) -> slice:
         """See `Reading`."""
         return IMAGE_BIASES
-
-    @property
-    def bias_share(self) -> float:
-        """Share of the variance that lasts as long as the image stays."""
-        return min(self.seen.systematic, MOST_LASTING)
-
-    @property
-    def R(self) -> Array:  # noqa: N802
-        """See `Reading`."""
-        return (1 - self.bias_share) * self._spread
-
-    @property
-    def _aside(self) -> Array:
-        """What one standard deviation of limbs and shape does: bearing and yaw (2,) in columns [rad]."""
-        covariance, seen = self.seen.covariance, self.seen
-        sigma = np.array([seen.limb_error, seen.shape_error / seen.distance])
-        # They are part of the frame's own covariance, and the yaw follows the bearing as it does there.
-        least = math.sqrt(MOST_ASIDE * float(covariance[0, 0]))
-        sigma *= min(1.0, least / max(float(np.hypot(*sigma)), 1e-12))
-        return np.outer([1.0, covariance[0, 1] / covariance[0, 0]], sigma)
-
-    @property
-    def _spread(self) -> Array:
-        """Covariance (2, 2) of bearing and yaw without these [rad^2]."""
-        return self.seen.covariance - self._aside @ self._aside.T
 
     @property
     def angles(self) -> Array:
@@ -208,17 +207,10 @@ class MarkerReading:
         slopes[:, :, :2] -= seen.sensitivity[:, None] * ray[:, None, :]
         slopes[:, :, YAW] = np.einsum("mki,mi->mk", slopes[:, :, :2], turn)
         slopes[:, 1, YAW] += 1.0
-        lasting = np.column_stack(
-            [
-                math.sqrt(self.bias_share) * np.linalg.cholesky(self._spread),
-                self._aside,
-                seen.sensitivity * seen.scale_error * seen.distance,
-            ]
-        )
-        slopes[:, :, n - BIASES :][:, :, IMAGE_BIASES] = lasting
+        slopes[:, :, n - BIASES :][:, :, IMAGE_BIASES] = self.lasting
         reading = np.stack([np.arctan2(d[:, 1], d[:, 0]), states[:, YAW] + self.mount.yaw], axis=1)
         reading -= seen.sensitivity * (distance - seen.distance)[:, None]
-        return reading + states[:, -BIASES:][:, IMAGE_BIASES] @ lasting.T, slopes
+        return reading + states[:, -BIASES:][:, IMAGE_BIASES] @ self.lasting.T, slopes
 
     def kept(self, before: MarkerReading, velocities: Array) -> Array:
         """See `Reading`."""

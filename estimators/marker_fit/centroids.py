@@ -11,7 +11,7 @@ from estimators.marker_fit.problem import CENTROID_ERROR, FAINT, SAMPLED_ERROR, 
 from estimators.poses import Array
 
 
-def fit_centroids(problem: Problem, outline: TargetOutline, start: Array, steps: int = 3) -> Solution:
+def fit_centroids(problem: Problem, outline: TargetOutline, start: Array, steps: int = 2) -> Solution:
     """Fit (bearing, yaw, distance) to limbs and centroids.
 
     The visible part of a marker is not symmetric about the marker's middle: the model's centroid is that of
@@ -20,11 +20,12 @@ def fit_centroids(problem: Problem, outline: TargetOutline, start: Array, steps:
     """
     pose = np.array(start, float)
     error = SAMPLED_ERROR if problem.quantised else math.hypot(CENTROID_ERROR, problem.noise)
+    edges = outline_at(outline, pose)
     # A marker narrower than a pixel may lie anywhere in it; the pixel's middle is all that is seen.
-    narrow = np.clip(1.5 - outline.widths(start)[problem.markers], 0.0, 1.0) * SAMPLED_ERROR
+    narrow = np.clip(1.5 - edges.widths[problem.markers], 0.0, 1.0) * SAMPLED_ERROR
     weight = np.where(problem.touching, 0.0, 1 / np.hypot(error, narrow))
-    for _ in range(steps):
-        edges = outline_at(outline, pose)
+    for step in range(steps):
+        edges = outline_at(outline, pose) if step else edges
         ends, slopes = problem.visible(edges)
         limb, limb_slopes = problem.limb_rows(edges)
         prior, prior_slopes = problem.prior_row(pose[2])

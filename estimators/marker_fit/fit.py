@@ -15,7 +15,7 @@ from estimators.marker_fit.centroids import fit_centroids
 from estimators.marker_fit.measurement import MarkerMeasurement
 from estimators.marker_fit.outline import TargetOutline
 from estimators.marker_fit.photometric import fit_photometric
-from estimators.marker_fit.problem import MODEL_ERROR, Problem, Solution, pose_problem
+from estimators.marker_fit.problem import MODEL_ERROR, Problem, Solution, outline_at, pose_problem
 from estimators.marker_fit.profile import ProfileReader
 from estimators.marker_fit.runs import find_runs
 from estimators.marker_fit.sampled import feasible_poses
@@ -128,9 +128,7 @@ class MarkerFit:
 
     def _solve(self, problem: Problem, start: Array) -> Solution | None:
         solution = fit_centroids(problem, self._outline, start)
-        # Of markers narrower than a pixel the profile shows where they are not, and misleads the steps.
-        wide = self._outline.widths(solution.pose)[problem.markers].max() > 1.0
-        if self._method == "photometric" and not problem.quantised and wide:
+        if self._method == "photometric" and not problem.quantised and self._wide(problem, solution):
             whole = fit_photometric(problem, self._outline, solution.pose)
             per_radian = self._outline.focal * self._outline.radius / problem.distance
             moved = abs(whole.pose[1] - solution.pose[1]) * per_radian
@@ -144,6 +142,11 @@ class MarkerFit:
         if problem.quantised and self._method == "photometric":
             solution = feasible_poses(problem, self._outline, solution)
         return solution
+
+    def _wide(self, problem: Problem, solution: Solution) -> bool:
+        """Whether the profile helps: of markers narrower than a pixel it shows where they are not, and misleads."""
+        widths = outline_at(self._outline, solution.pose).widths
+        return bool(widths[problem.markers].max() > 1.0)
 
     def _measurement(
         self, stamp: float, direction: float, problem: Problem, solution: Solution, false_colors: int

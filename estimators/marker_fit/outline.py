@@ -38,6 +38,11 @@ class Outline(NamedTuple):
     seen: Flags
     clear: Array
 
+    @property
+    def widths(self) -> Array:
+        """Width (K,) [px] at which each marker would be seen if nothing hid it."""
+        return np.asarray(self.markers[:, 1] - self.markers[:, 0])
+
 
 class TargetOutline:
     """The target as a function of (bearing, yaw, distance), in columns of the straight image.
@@ -97,11 +102,6 @@ class TargetOutline:
         facing = cos / reach - radius / d
         clear = np.clip(0.5 + facing / (2 * GRAZING), 0.0, 1.0)
         return Outline(limbs, limb_slopes, columns[rows, pick], slopes, foot, facing > 0, clear)
-
-    def widths(self, pose: Array) -> Array:
-        """Width (K,) [px] at which each marker is seen from a pose (bearing, yaw, distance)."""
-        edges = self.at(float(pose[0]), float(pose[1] - pose[0]), float(pose[2]))
-        return np.asarray(edges.markers[:, 1] - edges.markers[:, 0])
 
     def turn_of(self, axis: float, columns: Array, distance: float) -> Array:
         """Angle on the cylinder (N,) [rad], from the direction to the camera, of what columns (N,) show."""

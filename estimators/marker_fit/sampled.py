@@ -10,7 +10,7 @@ from estimators.marker_fit.outline import TargetOutline
 from estimators.marker_fit.problem import Problem, Solution, outline_at
 from estimators.poses import Array
 
-SAMPLES = 2048
+SAMPLES = 1024
 SPREAD = 1.6
 """Samples are drawn this much wider than the least-squares solution."""
 SOFTNESS = 0.03

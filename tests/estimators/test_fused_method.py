@@ -126,6 +126,43 @@ def test_what_is_older_than_the_memory_is_ignored(driven, scan):
     assert estimator.update(frame((3.0, 1.0, 0.0), 0.0)) is None
 
 
+def test_a_stamp_far_ahead_does_not_make_the_rest_too_old(driven, scan):
+    _, messages = driven
+    one, other = FusedEstimator(CALIBRATION), FusedEstimator(CALIBRATION)
+    stray = dataclasses.replace(scan((3.0, 1.0), 0.0), stamp=1e9)
+    a = feed(one, messages)
+    b = feed(other, [m for message in messages for m in (message, stray)])
+
+    assert [tuple(x.pose) for x in a] == [tuple(x.pose) for x in b]
+
+
+@pytest.mark.parametrize("jump", [100.0, -100.0])
+def test_a_clock_that_is_set_anew_is_believed_once_messages_agree_on_it(scan, jump):
+    estimator = FusedEstimator(CALIBRATION, camera=False)
+    here, there = (-1.0, 2.0), (2.0, 2.5)
+    for i in range(10):
+        estimator.update(scan(here, 200 + i / 10))
+    answers = [estimator.update(scan(there, 200 + jump + i / 10)) for i in range(15)]
+
+    assert answers[0] is None
+    assert answers[-1].valid
+    assert answers[-1].stamp == pytest.approx(200 + jump + 1.4)
+    assert off(answers[-1], (*there, 0.0))[:2] == pytest.approx([0, 0], abs=0.03)
+
+
+def test_a_late_burst_does_not_start_time_anew(driven, scan):
+    _, messages = driven
+    estimator = FusedEstimator(CALIBRATION)
+    last = feed(
+        estimator, [dataclasses.replace(scan((0.5, 2.0), i / 10), stamp=50 + i / 10) for i in range(5)]
+    )
+    burst = [m for m in messages if m.stamp < 0.4]
+
+    assert feed(estimator, burst) == []
+    again = estimator.update(scan((0.5, 2.0), 50.5))
+    assert again.stamp > last[-1].stamp
+
+
 @pytest.mark.parametrize("bad", [math.nan, 0.0, -1.0, math.inf, -math.inf])
 def test_beams_that_are_no_ranges_tell_nothing(scan, bad):
     estimator = FusedEstimator(CALIBRATION, camera=False)
