@@ -25,7 +25,7 @@ class Rules:
     Attributes:
         align: The alignment.
         max_gap: Up to which the reference is interpolated [s].
-        seed: Of the error histories.
+        seed: Of the error histories, the bootstrap and the localizers' own randomness.
         calibration: Standard deviations of the station's calibration, position [mm] and yaw [deg].
     """
 

@@ -31,7 +31,7 @@ class LiveRun:
         path: One of `PATHS` or `DRIVES`.
         duration: Of a path [s]; drives take as long as they take.
         speed: On a path [m/s].
-        seed: Of the episode and of the localizers.
+        seed: Of the episode; the localizers' own randomness has the seed of the rules, as in a recording.
         number: Of the run among all.
         rules: How it is judged.
         recording: A file to record the run in, or "".
@@ -88,7 +88,7 @@ def score_live(run: LiveRun, on_step: Callable[[], None] | None = None) -> Judge
         base: Any = env.unwrapped
         env.reset(seed=run.seed, options={"pose": tuple(start)})
         localizers = {
-            s.name: make_localizer(s, base.believed_robot, base.believed_map, start, run.seed)
+            s.name: make_localizer(s, base.believed_robot, base.believed_map, start, run.rules.seed)
             for s in run.subjects
         }
         watch = Watch(base.believed_calibration, localizers)

@@ -58,7 +58,7 @@ def score_recording(
     robot = robot_calibration(believed)
     room = believed.room.in_station_frame(believed.onboard.lidar.height)
     watch = Watch(
-        believed.calibration(), {s.name: make_localizer(s, robot, room, start, number) for s in listening}
+        believed.calibration(), {s.name: make_localizer(s, robot, room, start, rules.seed) for s in listening}
     )
     for message in watched(recording.messages):
         watch.take((message,), recording.truth)

@@ -10,6 +10,7 @@ from benchmarks.report.scores import DEGREES, MM
 from benchmarks.scoring.comparison import Comparison
 from benchmarks.scoring.quantities import Corrected
 from benchmarks.scoring.summary import Score, SubjectSummary
+from benchmarks.scoring.verdicts import JUDGED
 from benchmarks.trajectory.offsets import NAMES, Offsets
 
 UNITS = {"position": "mm", "along": "mm", "cross": "mm", "yaw": "deg"}
@@ -81,6 +82,7 @@ def _score(score: Score) -> dict[str, Any]:
         "estimate_vs_gt": _against_gt(score),
         "estimate_vs_true": _against_truth(score, "true") | {"nees": score.nees_true} if known else None,
         "ratios": dict(score.ratios),
+        "ratio_intervals": {judged: _ratio_interval(score.scores.get(q)) for judged, q in JUDGED.items()},
         "verdicts": score.verdicts,
         "ratios_from_truth": dict(score.true_ratios) if known else None,
         "verdicts_from_truth": score.true_verdicts if known else None,
@@ -131,6 +133,11 @@ def _held(score: Score) -> dict[str, bool | None]:
         unit, _ = unit_of(quantity)
         held[f"{key_of(quantity)}_{unit}"] = _covers(c)
     return held
+
+
+def _ratio_interval(c: Corrected | None) -> list[float] | None:
+    """Within which the ratio lies with 95 %, the stated uncertainty being right."""
+    return None if c is None or c.stated <= 0 else [end / c.stated for end in c.interval]
 
 
 def _covers(c: Corrected | None) -> bool | None:

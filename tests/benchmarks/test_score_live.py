@@ -52,7 +52,7 @@ def content(runs, reference="fused", rules=None):
 def recorded(tmp_path_factory):
     """A live run, the folder of its recording, and its subjects."""
     folder = tmp_path_factory.mktemp("score")
-    names = ("odometry", "planted=score_subjects:Planted")
+    names = ("odometry", "mcl", "planted=score_subjects:Planted")
     subjects(*names)  # finds the module
     score_subjects_seed(1)
     run = live(*names, duration=8.0, recording=str(folder / "run.mcap"))
