@@ -12,7 +12,7 @@ from scipy.sparse.linalg import splu
 from estimators.poses import Array
 from estimators.self_calibration.places import Places, RadiusEvidence
 from estimators.self_calibration.quantities import PRIOR, Q
-from estimators.self_calibration.rows import Rows, bend_rows, place_rows, sighting_rows
+from estimators.self_calibration.rows import Rows, bend_rows, place_rows, sighting_rows, width_rows
 from estimators.self_calibration.sightings import Sightings
 from estimators.self_calibration.track import Knots
 from estimators.self_calibration.walls import Walls
@@ -113,6 +113,8 @@ def _rows(evidence: Evidence, values: Array, knots: Knots, track: Array) -> dict
     }
     if len(evidence.sightings):
         rows["columns"] = sighting_rows(evidence.sightings, values, evidence.image_height, knots, track)
+        if np.isfinite(evidence.sightings.distances).any():
+            rows["widths"] = width_rows(evidence.sightings, values, evidence.image_height, knots, track)
     return rows
 
 

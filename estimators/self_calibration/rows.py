@@ -19,6 +19,8 @@ Sparse = Any
 """A sparse matrix of SciPy, which has no types."""
 ROUGHNESS: Final = 5e-4
 """What the smooth curve does not follow: starts, stops, play of the target, standard deviation [m]."""
+WIDTH_ERROR: Final = 0.07
+"""Standard deviation of the target's width in an image whose pixels average over their area [px]."""
 GLANCE: Final = 0.5
 """Over which it is judged whether the target moves [s]."""
 CREEPING: Final = 0.03
@@ -122,6 +124,36 @@ def sighting_rows(sightings: Sightings, values: Array, height: int, knots: Knots
         by_quantity=whiten @ (-slopes / sigma[:, None]),
         by_track=whiten @ _sparse(entries, _columns(index), track),
         stamps=sightings.stamps,
+        width=1,
+    )
+
+
+def width_rows(sightings: Sightings, values: Array, height: int, knots: Knots, track: Array) -> Rows:
+    """Distances that the target's width in the image gives against the track; see `sighting_rows`.
+
+    A lens that is longer, or a target that is thicker, makes it look nearer.
+    """
+    seen = np.isfinite(sightings.distances)
+    distances, stamps = sightings.distances[seen], sightings.stamps[seen]
+    times = stamps - values[Q.CLOCK_OFFSET]
+    index, weights = knots.basis(times)
+    away = np.einsum("nk,nkd->nd", weights, track[index]) - values[[Q.CAMERA_X, Q.CAMERA_Y]]
+    distance = np.hypot(*away.T)
+    half = 0.5 * values[Q.FOV]
+    focal, focal_slope = 0.5 * height / np.tan(half), -0.25 * height / np.sin(half) ** 2
+    scale = focal * values[Q.RADIUS]
+    by_place = away / distance[:, None] ** 2
+    slopes = np.zeros((len(times), len(Q)))
+    slopes[:, Q.RADIUS], slopes[:, Q.FOV] = 1 / values[Q.RADIUS], focal_slope / focal
+    slopes[:, [Q.CAMERA_X, Q.CAMERA_Y]] = by_place
+    slopes[:, Q.CLOCK_OFFSET] = (by_place * knots.at(track, times, derivative=1)).sum(axis=1)
+    sigma = np.hypot(WIDTH_ERROR * distance / (2 * scale), ROUGHNESS / distance)
+    entries = -(by_place[:, None, :] * weights[:, :, None]).reshape(-1, 8) / sigma[:, None]
+    return Rows(
+        residual=np.log(distances / distance * scale / sightings.scale) / sigma,
+        by_quantity=slopes / sigma[:, None],
+        by_track=_sparse(entries, _columns(index), track),
+        stamps=stamps,
         width=1,
     )
 

@@ -100,7 +100,7 @@ def self_calibrate(
         raise RecordingError(f"{origin}: {error}") from None
     places = _places(scans, with_vector(believed, values), watch, origin)
     radius = _radius(scans, places, with_vector(believed, values), watch, rough=True)
-    nothing = Sightings(*(np.empty(0) for _ in range(5)))
+    nothing = Sightings.none()
     height = believed.camera.height
     if radius is not None:
         values[Q.RADIUS] = radius.radius

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from typing import Final
+from dataclasses import dataclass, field, replace
+from typing import Final, Self
 
 import numpy as np
 
@@ -40,6 +40,9 @@ class Sightings:
         columns: (K,) straight column of the axis, right of the axis of view [px].
         sigmas: (K,) [px].
         repeats: (K,) share of the error that it has in common with the one before, 0 ... 1.
+        distances: (K,) from camera to axis that the target's width in the image gives [m]; NaN where a pixel is one
+            sample, whose edges are not where the target ends. Empty if there are none.
+        scale: Focal length times radius that these distances were taken with [px m].
     """
 
     stamps: Array
@@ -47,6 +50,14 @@ class Sightings:
     columns: Array
     sigmas: Array
     repeats: Array
+    distances: Array = field(default_factory=lambda: np.empty(0))
+    scale: float = 1.0
+
+    @classmethod
+    def none(cls) -> Self:
+        """No sighting at all."""
+        empty = np.empty(0)
+        return cls(empty, empty, empty, empty, empty)
 
     def __len__(self) -> int:
         return len(self.stamps)
@@ -84,6 +95,8 @@ def find_sightings(
         repeats=np.array(
             [0.0 if b is None else m.correlation(b) for (_, _, m), b in zip(seen, before, strict=True)]
         ),
+        distances=np.array([math.nan if m.quantised else m.distance for _, _, m in seen]),
+        scale=focal * calibration.target.radius,
     )
 
 

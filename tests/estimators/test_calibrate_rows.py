@@ -8,7 +8,13 @@ import pytest
 from estimators import Pose2
 from estimators.self_calibration.places import Places
 from estimators.self_calibration.quantities import Q, values_of, with_vector
-from estimators.self_calibration.rows import bend_rows, expected_columns, place_rows, sighting_rows
+from estimators.self_calibration.rows import (
+    bend_rows,
+    expected_columns,
+    place_rows,
+    sighting_rows,
+    width_rows,
+)
 from estimators.self_calibration.sightings import Sightings
 from estimators.self_calibration.track import KNOT_SPACING, Knots
 from estimators.self_calibration.walls import expected_ranges, find_walls
@@ -52,8 +58,12 @@ def sightings_of(repeats=0.0, knots_and_track=None):
     n, stamps = len(TIMES), TIMES + 0.01
     pans = 1.6 + 0.1 * np.sin(stamps)
     focal = 120 / np.tan(0.5 * TRUE[Q.FOV])
-    columns = expected_columns(knots.at(track, stamps - TRUE[Q.CLOCK_OFFSET]), pans, TRUE, focal)
-    return Sightings(stamps, pans, columns, np.full(n, 0.2), np.full(n, repeats))
+    points = knots.at(track, stamps - TRUE[Q.CLOCK_OFFSET])
+    columns = expected_columns(points, pans, TRUE, focal)
+    # Taken with a lens 2 % too short, the target seems nearer by as much.
+    distances = 0.98 * np.hypot(*(points - TRUE[[Q.CAMERA_X, Q.CAMERA_Y]]).T)
+    scale = 0.98 * focal * TRUE[Q.RADIUS]
+    return Sightings(stamps, pans, columns, np.full(n, 0.2), np.full(n, repeats), distances, scale)
 
 
 ROWS = {
@@ -63,6 +73,7 @@ ROWS = {
     "columns": lambda values, knots, track: sighting_rows(
         sightings_of(repeats=0.7), values, 240, knots, track
     ),
+    "widths": lambda values, knots, track: width_rows(sightings_of(), values, 240, knots, track),
     "bends": lambda values, knots, track: bend_rows(knots, track),
 }
 
@@ -90,6 +101,19 @@ def test_derivatives_by_finite_differences(kind):
         change = ROWS[kind](TRUE, knots, up).residual - ROWS[kind](TRUE, knots, down).residual
         difference = np.abs(change / (2 * step) - dense[:, place]).max()
         assert difference < 1e-4 * np.abs(dense[:, place]).max()
+
+
+@pytest.mark.parametrize("kind", ["columns", "widths"])
+def test_true_quantities_leave_no_residual(kind):
+    knots, track = curve()
+    assert np.abs(ROWS[kind](TRUE, knots, track).residual).max() < 1e-6
+
+
+def test_frames_of_single_samples_say_nothing_of_the_width():
+    knots, track = curve()
+    seen = sightings_of()
+    seen = replace(seen, distances=np.where(np.arange(len(TIMES)) < 10, np.nan, seen.distances))
+    assert len(width_rows(seen, TRUE, 240, knots, track).residual) == len(TIMES) - 10
 
 
 def test_a_spline_repeats_straight_lines_and_its_weights_add_up():
