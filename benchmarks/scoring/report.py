@@ -10,7 +10,7 @@ from benchmarks.report.scores import DEGREES, MM
 from benchmarks.scoring.comparison import Comparison
 from benchmarks.scoring.quantities import Corrected
 from benchmarks.scoring.summary import Score, SubjectSummary
-from benchmarks.scoring.verdicts import JUDGED
+from benchmarks.scoring.verdicts import JUDGED, ratio_of_true_error, verdict
 from benchmarks.trajectory.offsets import NAMES, Offsets
 
 UNITS = {"position": "mm", "along": "mm", "cross": "mm", "yaw": "deg"}
@@ -86,6 +86,11 @@ def _score(score: Score) -> dict[str, Any]:
         "verdicts": score.verdicts,
         "ratios_from_truth": dict(score.true_ratios) if known else None,
         "verdicts_from_truth": score.true_verdicts if known else None,
+        "verdicts_of_true_error": {
+            judged: verdict(ratio_of_true_error(score.scores.get(q))) for judged, q in JUDGED.items()
+        }
+        if known
+        else None,
         "interval_holds": _held(score) if known else None,
         "nees": score.nees,
         "runs": score.runs,

@@ -28,6 +28,13 @@ def true_ratio(found: Corrected | None) -> float | None:
     return found.true / found.gt_true
 
 
+def ratio_of_true_error(found: Corrected | None) -> float | None:
+    """The localizer's true error over the station's stated uncertainty: as both verdicts rest on the stated one, only the correction tells them apart."""
+    if found is None or found.true is None or found.stated <= 0:
+        return None
+    return found.true / found.stated
+
+
 def verdict(value: float | None) -> Verdict:
     """What a ratio amounts to."""
     if value is None:
