@@ -29,7 +29,7 @@ def true_ratio(found: Corrected | None) -> float | None:
 
 
 def ratio_of_true_error(found: Corrected | None) -> float | None:
-    """The localizer's true error over the station's stated uncertainty: as both verdicts rest on the stated one, only the correction tells them apart."""
+    """The localizer's true error over the station's stated uncertainty; None where one of them is unknown."""
     if found is None or found.true is None or found.stated <= 0:
         return None
     return found.true / found.stated
