@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Literal
 
 from estimators.poses import Pose2
 from estimators.room import Room
 
 DEG = math.pi / 180
+Motion = Literal["unicycle", "skid", "holonomic"]
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -108,9 +110,19 @@ class TargetGeometry:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Calibration:
-    """Everything that an estimator may know beforehand."""
+    """Everything that an estimator may know beforehand.
+
+    Attributes:
+        room: Walls and what stands on the floor.
+        lrf: The laser rangefinder.
+        camera: The camera on its pan unit.
+        target: The target.
+        motion: How what carries the target can move: `unicycle` along its heading only, `skid` beside it too where it
+            turns, as four wheels that cannot be steered make it, `holonomic` in any direction.
+    """
 
     room: Room
     lrf: LrfCalibration = field(default_factory=LrfCalibration)
     camera: CameraCalibration = field(default_factory=CameraCalibration)
     target: TargetGeometry = field(default_factory=TargetGeometry)
+    motion: Motion = "unicycle"

@@ -6,15 +6,15 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from estimators.calibration import Calibration
-from estimators.fused.method import BLIND_AFTER, FusedEstimator, Motion
+from estimators.calibration import Calibration, Motion
+from estimators.fused.method import BLIND_AFTER, FusedEstimator
 from estimators.fused.readings import MarkerReading
 from estimators.fused.smoother import smoothed
 from estimators.messages import Message, PoseEstimate
 
 
 def smooth(
-    messages: Iterable[Message], calibration: Calibration, motion: Motion = "unicycle", camera: bool = True
+    messages: Iterable[Message], calibration: Calibration, motion: Motion | None = None, camera: bool = True
 ) -> list[PoseEstimate]:
     """Estimate the pose at every measurement of a recording: the fused method forward, then looking back.
 

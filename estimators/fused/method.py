@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import replace
-from typing import Final, Literal
+from typing import Final
 
 import numpy as np
 
-from estimators.calibration import Calibration
+from estimators.calibration import Calibration, Motion
 from estimators.clock import on_lrf_clock
-from estimators.fused.motion import Holonomic, MotionModel, Unicycle
+from estimators.fused.motion import Holonomic, MotionModel, Skidding, Unicycle
 from estimators.fused.readings import MarkerReading, PositionReading
 from estimators.fused.timeline import Timeline
 from estimators.fused.track import Track
@@ -20,7 +20,11 @@ from estimators.messages import ImageFrame, LaserScan, Message, PoseEstimate
 from estimators.poses import Array, Pose2
 from estimators.scan_model import PositionFix, ScanModel
 
-Motion = Literal["unicycle", "holonomic"]
+MODELS: Final[dict[Motion, type[MotionModel]]] = {
+    "unicycle": Unicycle,
+    "skid": Skidding,
+    "holonomic": Holonomic,
+}
 
 LEAST_ODDS: Final = 10.0
 """Log odds of a target being there below which a fix is not believed."""
@@ -55,7 +59,7 @@ class FusedEstimator:
 
     Args:
         calibration: What is believed of station, target and room.
-        motion: `unicycle` for robots that cannot move sideways, `holonomic` for any.
+        motion: How the robot can move, see `Calibration`; None for what that says.
         camera: Whether frames are used; without them only the position is estimated.
         keep: Whether `tracks` keeps everything since the reset, for whoever looks back.
 
@@ -68,7 +72,7 @@ class FusedEstimator:
     def __init__(
         self,
         calibration: Calibration,
-        motion: Motion = "unicycle",
+        motion: Motion | None = None,
         camera: bool = True,
         keep: bool = False,
     ) -> None:
@@ -78,7 +82,7 @@ class FusedEstimator:
         self._mount = calibration.target.mount
         self._lrf = calibration.lrf.pose
         self._camera = calibration.camera
-        self._model: MotionModel = Unicycle() if motion == "unicycle" else Holonomic()
+        self._model = MODELS[motion or calibration.motion]()
         self.reset()
 
     def reset(self) -> None:

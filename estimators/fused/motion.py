@@ -133,6 +133,52 @@ class Unicycle:
         return np.stack([v * np.cos(yaw), v * np.sin(yaw)], axis=1)
 
 
+CENTRE: Final = 0.05
+"""How far ahead of the base a skid-steered robot's centre of turning may lie, standard deviation [m]."""
+CENTRE_WALK: Final = 0.01
+"""How fast it wanders, as the load on the wheels changes with speed and curve [m/s^0.5]."""
+
+
+class Skidding(Unicycle):
+    """A robot that turns about a point ahead of its base or behind it: states x, y, yaw, v, omega, c and the biases.
+
+    Four wheels that cannot be steered slide sideways in a turn, and where along the robot they do not depends on the
+    load that each carries. With the centre of turning `CENTRE` c ahead, the base itself goes sideways at
+    -CENTRE c omega.
+    """
+
+    size = 6 + BIASES
+
+    def step(self, states: Array, dt: float) -> tuple[Array, Array]:
+        """See `MotionModel`."""
+        v, omega, ahead = states[:, 3], states[:, 4], CENTRE * states[:, 5]
+        middle = states[:, 2] + 0.5 * dt * omega
+        c, s = np.cos(middle), np.sin(middle)
+        dx, dy = dt * (v * c + ahead * omega * s), dt * (v * s - ahead * omega * c)
+        out = states.copy()
+        out[:, 0] += dx
+        out[:, 1] += dy
+        out[:, 2] += dt * omega
+        F = np.tile(np.eye(self.size), (len(states), 1, 1))
+        F[:, 0, 2], F[:, 0, 3], F[:, 0, 5] = -dy, dt * c, dt * CENTRE * omega * s
+        F[:, 1, 2], F[:, 1, 3], F[:, 1, 5] = dx, dt * s, -dt * CENTRE * omega * c
+        F[:, 0, 4], F[:, 1, 4] = dt * (ahead * s - 0.5 * dy), dt * (0.5 * dx - ahead * c)
+        F[:, 2, 4] = dt
+        return out, F
+
+    def noise(self, states: Array, dt: float, densities: Array) -> Array:
+        """See `MotionModel`."""
+        Q = super().noise(states, dt, densities)
+        Q[:, 5, 5] = dt * (CENTRE_WALK / CENTRE) ** 2
+        return Q
+
+    def velocities(self, states: Array) -> Array:
+        """See `MotionModel`."""
+        v, side = states[:, 3], -CENTRE * states[:, 5] * states[:, 4]
+        c, s = np.cos(states[:, 2]), np.sin(states[:, 2])
+        return np.stack([v * c - side * s, v * s + side * c], axis=1)
+
+
 class Holonomic:
     """A robot that moves in any direction: states x, y, yaw, vx, vy, omega and the biases."""
 

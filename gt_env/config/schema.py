@@ -9,7 +9,7 @@ from typing import Any
 
 from pydantic import model_validator
 
-from estimators.calibration import DEG, Calibration
+from estimators.calibration import DEG, Calibration, Motion
 from estimators.errors import ConfigError
 from estimators.poses import Pose2
 from estimators.room import Room
@@ -32,6 +32,8 @@ from gt_env.config.sections import (
 )
 from gt_env.config.shape import robot_shape
 
+MOTIONS: dict[str, Motion] = {"skid_steer": "skid", "omni3": "holonomic"}
+"""How robots move that do not only along their heading."""
 BELIEF_SECTIONS = ("room", "target", "lrf", "camera", "pan", "onboard")
 
 
@@ -89,6 +91,7 @@ class EnvConfig:
             lrf=self.lrf.calibration(),
             camera=self.camera.calibration(self.pan),
             target=self.target.calibration(),
+            motion=MOTIONS.get(self.robot.model, "unicycle"),
         )
 
     @property

@@ -2,10 +2,11 @@ import numpy as np
 import pytest
 
 from estimators.fused.mode_filter import ModeFilter
-from estimators.fused.motion import BIASES, Holonomic, Mode, Unicycle
+from estimators.fused.motion import BIASES, CENTRE, Holonomic, Mode, Skidding, Unicycle
 
 STATES = {
     Unicycle: [[1.0, 2.0, 0.7, 0.4, -1.2, 0.8], [-2.0, 1.0, -3.0, -0.3, 2.0, -1.5]],
+    Skidding: [[1.0, 2.0, 0.7, 0.4, -1.2, 0.8], [-2.0, 1.0, -3.0, -0.3, 2.0, -1.5]],
     Holonomic: [[1.0, 2.0, 0.7, 0.4, 0.2, -1.2], [-2.0, 1.0, -3.0, -0.3, 0.1, 2.0]],
 }
 
@@ -15,7 +16,7 @@ def states_of(model):
     return np.hstack([STATES[type(model)], [np.linspace(-0.5, 0.5, BIASES), np.zeros(BIASES)]])
 
 
-@pytest.mark.parametrize("model", [Unicycle(), Holonomic()])
+@pytest.mark.parametrize("model", [Unicycle(), Skidding(), Holonomic()])
 def test_the_derivatives_of_the_motion_are_those_of_finite_differences(model):
     states, dt, h = states_of(model), 0.1, 1e-6
     _, F = model.step(states, dt)
@@ -26,7 +27,7 @@ def test_the_derivatives_of_the_motion_are_those_of_finite_differences(model):
         assert F[:, :, j] == pytest.approx(slope, abs=1e-8)
 
 
-@pytest.mark.parametrize("model", [Unicycle(), Holonomic()])
+@pytest.mark.parametrize("model", [Unicycle(), Skidding(), Holonomic()])
 def test_the_noise_of_two_steps_is_that_of_one_twice_as_long(model):
     states = states_of(model)
     states[:, 3:-BIASES] = 0.0  # the heading stays what it is
@@ -38,7 +39,7 @@ def test_the_noise_of_two_steps_is_that_of_one_twice_as_long(model):
     assert (np.linalg.eigvalsh(once) > -1e-12).all()
 
 
-@pytest.mark.parametrize("model", [Unicycle(), Holonomic()])
+@pytest.mark.parametrize("model", [Unicycle(), Skidding(), Holonomic()])
 def test_only_motion_along_the_heading_is_noisy_for_a_unicycle(model):
     states = states_of(model)
     states[:, 4 if isinstance(model, Unicycle) else 5] = 0.0
@@ -46,6 +47,19 @@ def test_only_motion_along_the_heading_is_noisy_for_a_unicycle(model):
     for yaw, block in zip(states[:, 2], Q[:, :2, :2], strict=True):
         aside = np.array([-np.sin(yaw), np.cos(yaw)])
         assert (aside @ block @ aside < 1e-12) == isinstance(model, Unicycle)
+
+
+def test_a_skidding_robot_turns_about_a_point_ahead_of_its_base():
+    model, ahead = Skidding(), 0.1
+    state = np.array([[0.0, 0.0, 0.3, 0.0, 0.5, ahead / CENTRE, *np.zeros(BIASES)]])
+    centre = ahead * np.array([np.cos(0.3), np.sin(0.3)])
+    for _ in range(100):
+        state, _ = model.step(state, 0.02)
+        place = state[0, :2] + ahead * np.array([np.cos(state[0, 2]), np.sin(state[0, 2])])
+        assert place == pytest.approx(centre, abs=1e-5)
+    assert model.velocities(state)[0] == pytest.approx(
+        0.05 * np.array([np.sin(state[0, 2]), -np.cos(state[0, 2])])
+    )
 
 
 def pose_of(states):
