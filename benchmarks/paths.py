@@ -62,6 +62,17 @@ class ClosedPath:
         """Of one lap [m]."""
         return float(self.way[-1])
 
+    def unhurried(self, way: Array) -> Array:
+        """Ways (N,) [m] of a robot that goes through the curve's points at an even rate, as far apart as they are.
+
+        Args:
+            way: Of one that keeps to the greatest of its speeds all the time (N,) [m].
+        """
+        count = len(self.way) - 1
+        laps, rest = np.divmod(way / np.diff(self.way).max(), count)
+        found: Array = laps * self.length + np.interp(rest, np.arange(count + 1), self.way)
+        return found
+
     def poses(self, way: Array) -> Array:
         """x, y, yaw (N, 3) after ways (N,) [m] of any number of laps; the yaw goes on beyond half a turn."""
         laps, rest = np.divmod(way, self.length)
@@ -70,9 +81,9 @@ class ClosedPath:
 
 
 def figure_of_eight(center: tuple[float, float], half_length: float, half_width: float) -> Array:
-    """Points (N, 2) of the lemniscate of Gerono, lying along x, from its right end counter-clockwise [m]."""
+    """Points (N, 2) of the lemniscate of Gerono, lying along x, from its middle to the upper right [m]."""
     t = 2 * np.pi * np.arange(POINTS) / POINTS
-    return np.column_stack([half_length * np.cos(t), half_width * np.sin(2 * t)]) + center
+    return np.column_stack([half_length * np.sin(t), half_width * np.sin(2 * t)]) + center
 
 
 def rounded_rectangle(
@@ -144,21 +155,46 @@ def path_start(name: str, config: EnvConfig) -> Pose2:
     return Pose2(x=x, y=y, yaw=float(wrap_angle(yaw)))
 
 
+def timed_poses(
+    name: str, config: EnvConfig, *, speed: float = SPEED, duration: float = LONG_DRIVE, even: bool = True
+) -> Array:
+    """Poses (N, 3) [m, m, rad] at every step along one of `PATHS`: from rest, and to rest wherever that is.
+
+    Args:
+        name: Of the path.
+        config: Of the environment.
+        speed: The greatest [m/s].
+        duration: [s].
+        even: Whether to keep to that speed; else the robot is the slower the denser the path's points, on the
+            figure of eight in its two curves.
+
+    Raises:
+        ConfigError: If speed or duration are not positive.
+    """
+    for key, value in (("speed", speed), ("duration", duration)):
+        if not (math.isfinite(value) and value > 0):
+            raise ConfigError(f"{key} = {value}: must be a positive number")
+    times: Array = np.linspace(0.0, duration, round(duration / config.timing.step) + 1)
+    path, way = path_in_room(name, config), driven_way(times, speed)
+    return path.poses(way if even else path.unhurried(way))
+
+
 def path_script(
-    name: str, config: EnvConfig, *, speed: float = SPEED, duration: float = LONG_DRIVE
+    name: str,
+    config: EnvConfig,
+    *,
+    speed: float = SPEED,
+    duration: float = LONG_DRIVE,
+    even: bool = True,
 ) -> list[Segment]:
-    """Wheel speeds over time along one of `PATHS`: from rest, at an even speed, to rest, wherever that is.
+    """Wheel speeds over time along `timed_poses`.
 
     Raises:
         ConfigError: If speed or duration are not positive, the robot would come too near to a wall, or its
             wheels cannot turn as fast.
     """
-    for key, value in (("speed", speed), ("duration", duration)):
-        if not (math.isfinite(value) and value > 0):
-            raise ConfigError(f"{key} = {value}: must be a positive number")
+    poses = timed_poses(name, config, speed=speed, duration=duration, even=even)
     robot, step = config.robot, config.timing.step
-    times: Array = np.linspace(0.0, duration, round(duration / step) + 1)
-    poses = path_in_room(name, config).poses(driven_way(times, speed))
     # Within a step the robot goes along an arc, whose chord leads from pose to pose.
     chord = np.hypot(*np.diff(poses[:, :2], axis=0).T)
     turn = np.diff(poses[:, 2])
