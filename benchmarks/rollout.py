@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields
-from typing import Any
+from typing import Any, Protocol
 
 import gymnasium as gym
 import numpy as np
@@ -71,6 +71,38 @@ class Rollout:
     innovations: dict[str, Innovations] = field(default_factory=dict)
 
 
+class Driver(Protocol):
+    """Whoever drives: knows all that an action is to depend on, the true pose included."""
+
+    @property
+    def steps(self) -> int:
+        """How many environment steps it drives."""
+
+    def action(self, step: int, pose: Array) -> Array:
+        """The action (n,) for a step, from the true pose (3,) before it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Script:
+    """A driver who looks at nothing but the clock.
+
+    Attributes:
+        actions: (steps, n) one per environment step.
+    """
+
+    actions: Array
+
+    @property
+    def steps(self) -> int:
+        """How many environment steps it drives."""
+        return len(self.actions)
+
+    def action(self, step: int, pose: Array) -> Array:
+        """The action (n,) for a step."""
+        action: Array = self.actions[step]
+        return action
+
+
 def joined(rollouts: Sequence[Rollout]) -> Rollout:
     """Runs of the same methods, one after the other, as one; without their innovations."""
     first = rollouts[0]
@@ -119,7 +151,7 @@ def picked(track: Track, which: NDArray[np.bool_] | NDArray[np.intp] | slice) ->
 
 def rollout(
     env: gym.Env[Any, Any],
-    actions: Array,
+    driver: Driver | Array,
     *,
     seed: int,
     pose: Pose2 | None = None,
@@ -131,7 +163,7 @@ def rollout(
 
     Args:
         env: From `watched_arena`.
-        actions: (steps, n) one per step.
+        driver: Who drives, or the actions (steps, n), one per step.
         seed: Of the episode.
         pose: Where it starts; None for where the configuration says.
         settle: Steps of standing still before the first action; they are simulated, not returned.
@@ -142,8 +174,10 @@ def rollout(
     base: Any = env.unwrapped
     _, info = env.reset(seed=seed, options=None if pose is None else {"pose": tuple(pose)})
     infos, ticks = [info], [np.array(base.truth)]
-    for action in np.concatenate([np.zeros((settle, actions.shape[1])), actions]):
-        _, _, _, _, info = env.step(action)
+    still = np.zeros(env.action_space.shape or ())
+    driver = Script(driver) if isinstance(driver, np.ndarray) else driver
+    for step in range(-settle, driver.steps):
+        _, _, _, _, info = env.step(still if step < 0 else driver.action(step, info["true_pose"]))
         infos.append(info)
         ticks.append(np.array(base.truth))
         if on_step is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,6 +10,7 @@ from rich.console import Console
 
 from benchmarks.driving import DRIVES
 from benchmarks.engines import Engine
+from benchmarks.experiments.course import Course, follow
 from benchmarks.experiments.moving import FURTHER, moving_runs
 from benchmarks.experiments.random_poses import dithered, drive_runs, rest_runs
 from benchmarks.experiments.run import Run, simulate
@@ -21,6 +22,8 @@ from benchmarks.published import SAMPLES
 from benchmarks.rollout import Rollout, joined
 from gt_env.config import EnvConfig
 
+Task = Run | Course | ScanRun
+"""What one process carries out at a time."""
 STILL, DITHERED = "still", "dithered"
 """Robots at rest before a camera at rest, and before one that sweeps a little."""
 
@@ -37,6 +40,7 @@ class Effort:
         at_rest_dithered: Likewise before one that sweeps.
         driving: Robots that drive about at random.
         longest_drive: Time after which the drives are broken off [s]; None for never.
+        stress: How often each of the harder drives is made.
     """
 
     samples: int
@@ -46,6 +50,7 @@ class Effort:
     at_rest_dithered: int
     driving: int
     longest_drive: float | None
+    stress: int
 
 
 FULL = Effort(
@@ -56,6 +61,7 @@ FULL = Effort(
     at_rest_dithered=25,
     driving=50,
     longest_drive=None,
+    stress=4,
 )
 QUICK = Effort(
     samples=50,
@@ -65,6 +71,7 @@ QUICK = Effort(
     at_rest_dithered=2,
     driving=4,
     longest_drive=10.0,
+    stress=1,
 )
 
 
@@ -94,7 +101,7 @@ class Plan:
     scans: dict[str, ScanRun]
     rest: dict[str, tuple[Run, ...]]
     driving: tuple[Run, ...]
-    stress: dict[str, tuple[Run, ...]] = field(default_factory=dict)
+    stress: dict[str, tuple[Course, ...]] = field(default_factory=dict)
 
     @property
     def samples(self) -> int:
@@ -148,7 +155,7 @@ def plan_validation(
         rest={STILL: rest_runs(config, methods, effort.at_rest, for_rest)}
         | ({DITHERED: rest_runs(swept, methods, effort.at_rest_dithered, for_dithered)} if swept else {}),
         driving=drive_runs(config, methods, effort.driving, for_driving),
-        stress=stress_runs(config, methods, for_stress) if stress else {},
+        stress=stress_runs(config, methods, effort.stress, for_stress) if stress else {},
     )
 
 
@@ -180,7 +187,7 @@ def run_validation(plan: Plan, *, jobs: int, console: Console, engine: Engine | 
     rollouts = {n: r for n, r in zip(tasks, results, strict=True) if isinstance(r, Rollout)}
     fixes = {n: r for n, r in zip(tasks, results, strict=True) if isinstance(r, ScanFixes)}
 
-    def complete(name: str, runs: tuple[Run, ...]) -> tuple[Rollout, ...]:
+    def complete(name: str, runs: Sequence[Run | Course]) -> tuple[Rollout, ...]:
         of = [rollouts[n] for i in range(len(runs)) if (n := _numbered(name, i)) in rollouts]
         return tuple(of) if len(of) == len(runs) else ()
 
@@ -200,9 +207,9 @@ def run_validation(plan: Plan, *, jobs: int, console: Console, engine: Engine | 
     return validation
 
 
-def _tasks(plan: Plan) -> dict[str, Run | ScanRun]:
+def _tasks(plan: Plan) -> dict[str, Task]:
     """Every task by its name."""
-    groups = {
+    groups: dict[str, Sequence[Task]] = {
         **{f"static {p}": runs for p, runs in plan.static.items()},
         **{f"at rest, {kind}": runs for kind, runs in plan.rest.items()},
         "driving": plan.driving,
@@ -219,5 +226,7 @@ def _numbered(name: str, i: int) -> str:
     return f"{name}, run {i + 1}"
 
 
-def _carry_out(task: Run | ScanRun, on_step: Callable[[], None] | None = None) -> Rollout | ScanFixes:
-    return measure_scans(task, on_step) if isinstance(task, ScanRun) else simulate(task, on_step)
+def _carry_out(task: Task, on_step: Callable[[], None] | None = None) -> Rollout | ScanFixes:
+    if isinstance(task, ScanRun):
+        return measure_scans(task, on_step)
+    return follow(task, on_step) if isinstance(task, Course) else simulate(task, on_step)

@@ -34,12 +34,17 @@ class Run:
     @property
     def settle(self) -> int:
         """Environment steps before the first action."""
-        return round(SETTLE_SECONDS / self.config.timing.step)
+        return settling(self.config)
 
     @property
     def steps(self) -> int:
         """Environment steps in all."""
         return self.settle + len(self.actions)
+
+
+def settling(config: EnvConfig) -> int:
+    """Environment steps of standing still at the start of a run."""
+    return round(SETTLE_SECONDS / config.timing.step)
 
 
 def simulate(run: Run, on_step: Callable[[], None] | None = None) -> Rollout:

@@ -1,4 +1,4 @@
-"""Harder than usual: swept scans, slipping wheels, high speed."""
+"""Harder than usual: swept scans, slipping wheels, high speed; steered, so that no robot ends at a wall."""
 
 from __future__ import annotations
 
@@ -7,62 +7,94 @@ from typing import Final
 
 import numpy as np
 
-from benchmarks.driving import actions, start_pose
-from benchmarks.experiments.moving import driven, figure_of_eight, shortened
-from benchmarks.experiments.run import Run
-from benchmarks.paths import path_script, path_start
+from benchmarks.driving import ideal_poses, script, start_pose
+from benchmarks.experiments.course import Course
+from benchmarks.experiments.moving import EIGHT
+from benchmarks.paths import timed_poses
+from estimators.poses import Array
 from gt_env.config import EnvConfig, load_config
 
 SWEEP: Final = 0.5
 """Share of the time between scans that a scan takes."""
-SLIP: Final = {"robot.slip": 0.05, "robot.slip_sigma": 0.02}
-"""Each wheel loses 5 % of its way on average, now more, now less."""
+SLIP: Final = 0.05
+"""Share of its way that each wheel loses."""
+UNEVEN: Final = 0.02
+"""Standard deviation of what each wheel loses more or less than that."""
 FAST: Final = 1.2
 """Speed of a drive at 2 m or more from the camera [m/s]."""
 WHIRL: Final = 2 * math.pi
 """Turn rate on the spot [rad/s]."""
+SPIN_UP: Final = 0.5
+"""Time from rest to that and back [s]."""
+HEADROOM: Final = 1.5
+"""Wheels must turn faster than the speed takes: the outer one in curves, and to catch up."""
 SECONDS: Final = 25.0
 """How long each drive is at most [s]."""
 
 
 def stress_runs(
-    config: EnvConfig, methods: tuple[str, ...], seed: np.random.SeedSequence
-) -> dict[str, tuple[Run, ...]]:
-    """Runs by what is hard; `usual` are the drives that `swept` and `slip` are to be compared with.
+    config: EnvConfig, methods: tuple[str, ...], repeats: int, seed: np.random.SeedSequence
+) -> dict[str, tuple[Course, ...]]:
+    """Courses by what is hard; `usual` are the drives that `swept`, `slip` and `uneven-slip` are compared with.
+
+    Args:
+        config: Of the room.
+        methods: Who watches.
+        repeats: How often each of the three drives is made, with other noise; the others as often as all three.
+        seed: Of everything; the same noise in each of the groups that are compared.
 
     Raises:
         ConfigError: If a drive does not fit into the room.
     """
-    seeds = seed.generate_state(3).tolist()
-    swept = load_config(config, {"lrf.sweep_time": SWEEP / config.lrf.rate})
-    runs = {
-        "usual": _drives(config, methods, seeds),
-        "swept": _drives(swept, methods, seeds),
-        "slip": _drives(load_config(config, SLIP), methods, seeds),
-        "fast": (_fast(config, methods, seeds[0]),),
-        "whirl": (_whirl(config, methods, seeds[0]),),
+    drives, fast, whirl = (s.generate_state(3 * repeats).tolist() for s in seed.spawn(3))
+    settings: dict[str, dict[str, float]] = {
+        "usual": {},
+        "swept": {"lrf.sweep_time": SWEEP / config.lrf.rate},
+        "slip": {"robot.slip": SLIP},
+        "uneven-slip": {"robot.slip": SLIP, "robot.slip_sigma": UNEVEN},
     }
-    return {name: tuple(shortened(run, SECONDS) for run in of) for name, of in runs.items()}
+    poses = [drive[: 1 + round(SECONDS / config.timing.step)] for drive in _drives(config)] * repeats
+    runs = {
+        kind: _courses(load_config(config, changes) if changes else config, methods, poses, drives)
+        for kind, changes in settings.items()
+    }
+    quick = _able(config, FAST)
+    far = timed_poses("far", quick, speed=FAST, duration=SECONDS)
+    runs["fast"] = _courses(quick, methods, [far] * len(fast), fast)
+    nimble = _able(config, 0.5 * WHIRL * config.robot.track)
+    runs["whirl"] = _courses(nimble, methods, [_rounds(nimble)] * len(whirl), whirl)
+    return runs
 
 
-def _drives(config: EnvConfig, methods: tuple[str, ...], seeds: list[int]) -> tuple[Run, ...]:
-    path, tour, eight = seeds
-    return (
-        driven("path", config, methods, path),
-        driven("tour", config, methods, tour),
-        figure_of_eight(config, methods, eight),
+def _courses(
+    config: EnvConfig, methods: tuple[str, ...], poses: list[Array], seeds: list[int]
+) -> tuple[Course, ...]:
+    return tuple(
+        Course(config=config, methods=methods, poses=p, seed=s) for p, s in zip(poses, seeds, strict=True)
     )
 
 
-def _fast(config: EnvConfig, methods: tuple[str, ...], seed: int) -> Run:
-    # In the curves the outer wheel turns faster than the thesis's motors can.
-    quick = load_config(config, {"robot.max_wheel_speed": 1.5 * FAST / config.robot.wheel_radius})
-    commands = actions(path_script("far", quick, speed=FAST, duration=SECONDS), quick, quick.timing.step)
-    return Run(config=quick, methods=methods, pose=path_start("far", quick), actions=commands, seed=seed)
+def _drives(config: EnvConfig) -> list[Array]:
+    """Path, tour and figure of eight as poses (N, 3) each."""
+    step = config.timing.step
+    scripted = [
+        ideal_poses(start_pose(name, config), script(name, config), config, step) for name in ("path", "tour")
+    ]
+    return [*scripted, timed_poses(EIGHT, config, duration=SECONDS)]
 
 
-def _whirl(config: EnvConfig, methods: tuple[str, ...], seed: int) -> Run:
-    robot, third = config.robot, round(SECONDS / 3 / config.timing.step)
-    turn = 0.5 * WHIRL * robot.track / robot.wheel_radius / robot.max_wheel_speed
-    rounds = np.repeat([[-turn, turn], [0.0, 0.0], [turn, -turn]], third, axis=0)
-    return Run(config=config, methods=methods, pose=start_pose("spin", config), actions=rounds, seed=seed)
+def _able(config: EnvConfig, speed: float) -> EnvConfig:
+    """The same with wheels that can be so fast [m/s] in curves."""
+    needed = HEADROOM * speed / config.robot.wheel_radius
+    return load_config(config, {"robot.max_wheel_speed": max(needed, config.robot.max_wheel_speed)})
+
+
+def _rounds(config: EnvConfig) -> Array:
+    """Poses (N, 3) of turns on the spot, to one side, a pause of a second, and back."""
+    start = start_pose("spin", config)
+    times = np.linspace(0.0, SECONDS, 1 + round(SECONDS / config.timing.step))
+    end = 0.5 * (SECONDS - 1.0)
+    knots = np.array([0.0, SPIN_UP, end - SPIN_UP, end])
+    rate = np.interp(times, [*knots, *(knots + end + 1.0)], WHIRL * np.array([0, 1, 1, 0, 0, -1, -1, 0]))
+    turned = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(times) * (rate[1:] + rate[:-1]))])
+    return np.column_stack([np.full_like(times, start.x), np.full_like(times, start.y), start.yaw + turned])

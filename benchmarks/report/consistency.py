@@ -73,7 +73,7 @@ def consistency_tables(scores: Scores) -> list[Table]:
     return tables
 
 
-def consistency_json(scores: Scores) -> dict[str, Any]:
+def consistency_json(judged: dict[str, dict[str, Consistency]]) -> dict[str, Any]:
     """By situation and method: `nees` of pose, position and heading with their bounds, and `coverage`."""
     return {
         situation: {
@@ -83,7 +83,7 @@ def consistency_json(scores: Scores) -> dict[str, Any]:
             }
             for method, found in of.items()
         }
-        for situation, of in scores.consistency.items()
+        for situation, of in judged.items()
     }
 
 

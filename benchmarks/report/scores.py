@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -85,6 +85,7 @@ class Scores:
         consistency: By situation and then by method; methods that state no covariance are left out.
         whiteness: Of innovations while driving, by online method and then by kind of reading.
         stress: By method and then by what was hard.
+        stress_honesty: By what was hard and then by method that states a covariance.
     """
 
     static: dict[str, dict[str, Score]]
@@ -96,6 +97,7 @@ class Scores:
     consistency: dict[str, dict[str, Consistency]]
     whiteness: dict[str, dict[str, Whiteness]]
     stress: dict[str, dict[str, Score]]
+    stress_honesty: dict[str, dict[str, Consistency]]
 
     @property
     def methods(self) -> tuple[str, ...]:
@@ -120,11 +122,7 @@ def score_validation(validation: Validation) -> Scores:
     if v.driving:
         situations["driving"] = v.driving
     rng = np.random.default_rng(v.plan.seed)
-    samples = {name: [_one_sample(r, rng) for r in of] for name, of in situations.items()}
-    judged = {
-        name: {m: consistency([r.tracks[m] for r in of], samples[name]) for m in methods}
-        for name, of in situations.items()
-    }
+    judged, hard = (_honesty(of, methods, rng) for of in (situations, v.stress))
     watching = dict.fromkeys(HINDSIGHT[m] for m in methods if m in HINDSIGHT)
     white = {
         m: {kind: whiteness(v.driving, m, kind, after=STARTED) for kind in KINDS}
@@ -138,10 +136,23 @@ def score_validation(validation: Validation) -> Scores:
         travels={m: _together(travels, m) for m in methods},
         scans={p: _scan_score(fixes) for p, fixes in v.scans.items()},
         rest={m: {kind: _last(of, m) for kind, of in v.rest.items()} for m in methods},
-        consistency={n: {m: c for m, c in of.items() if c is not None} for n, of in judged.items()},
+        consistency=judged,
         whiteness={m: {kind: w for kind, w in of.items() if w is not None} for m, of in white.items()},
         stress={m: {kind: _together(of, m) for kind, of in v.stress.items()} for m in methods},
+        stress_honesty=hard,
     )
+
+
+def _honesty(
+    situations: Mapping[str, Sequence[Rollout]], methods: Sequence[str], rng: np.random.Generator
+) -> dict[str, dict[str, Consistency]]:
+    """By situation and then by method; methods that state no covariance are left out."""
+    found = {}
+    for name, rollouts in situations.items():
+        samples = [_one_sample(r, rng) for r in rollouts]
+        judged = {m: consistency([r.tracks[m] for r in rollouts], samples) for m in methods}
+        found[name] = {m: c for m, c in judged.items() if c is not None}
+    return found
 
 
 def _together(rollouts: Sequence[Rollout], method: str) -> Score:

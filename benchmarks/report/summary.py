@@ -24,7 +24,7 @@ def report_json(scores: Scores, setup: dict[str, Any], cameras: dict[str, Any] |
     """Strict JSON: `setup`, `static` by method and point, `moving` by drive and method, and what else there is.
 
     `limits` by test point; `rest` by what the camera did, `travels` (all drives that go somewhere together) and
-    `stress` by method; `consistency`, `whiteness`, `cameras`.
+    `stress` by method, `stress_consistency` as `consistency`; `consistency`, `whiteness`, `cameras`.
 
     `mean`, `std`, `mode` are x, y, yaw in [m, m, deg]; `mae` in [mm, mm, deg]; `valid` is a share of the
     samples; `nees` is null where a method states no covariance, any number where nothing valid was said.
@@ -40,7 +40,8 @@ def report_json(scores: Scores, setup: dict[str, Any], cameras: dict[str, Any] |
         "rest": _by_kind(scores.rest),
         "travels": {m: _moving(s) for m, s in scores.travels.items() if s.n},
         "stress": _by_kind(scores.stress),
-        "consistency": consistency_json(scores),
+        "stress_consistency": consistency_json(scores.stress_honesty),
+        "consistency": consistency_json(scores.consistency),
         "whiteness": whiteness_json(scores),
         "cameras": cameras,
     }

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks.driving import SPEED, TURN_RATE
+from benchmarks.experiments.course import ContactError, Course, follow
 from benchmarks.experiments.moving import EIGHT, moving_runs
 from benchmarks.experiments.random_poses import DRIVE_SECONDS, REST_SECONDS, dithered, drive_runs, rest_runs
 from benchmarks.experiments.run import simulate
@@ -78,19 +79,50 @@ def test_without_a_camera_there_is_nothing_to_dither():
 
 
 def test_hard_drives_are_as_hard_as_they_say():
-    runs = stress_runs(THESIS, METHODS, seeds())
-    robot = THESIS.robot
-    for usual, slip, swept in zip(runs["usual"], runs["slip"], runs["swept"], strict=True):
-        assert slip.config.robot.slip == 0.05
-        assert swept.config.lrf.sweep_time == pytest.approx(0.05)
-        assert (swept.actions == usual.actions).all()
-        assert (slip.actions == usual.actions).all()
-    (whirl,), (fast,) = runs["whirl"], runs["fast"]
-    rates = np.ptp(whirl.actions, axis=1) * robot.max_wheel_speed * robot.wheel_radius / robot.track
-    assert math.degrees(rates.max()) == pytest.approx(360)
-    wheels = fast.actions * fast.config.robot.max_wheel_speed * robot.wheel_radius
-    assert wheels.mean(axis=1).max() == pytest.approx(1.2, rel=0.01)
-    assert np.abs(fast.actions).max() <= 1
+    runs = stress_runs(THESIS, METHODS, 2, seeds())
+    step = THESIS.timing.step
+    for kind in ("swept", "slip", "uneven-slip"):
+        assert len(runs[kind]) == 6
+        for usual, hard in zip(runs["usual"], runs[kind], strict=True):
+            assert hard.seed == usual.seed
+            assert (hard.poses == usual.poses).all()
+            assert hard.steps * step <= 26
+    assert runs["slip"][0].config.robot.slip == 0.05
+    assert runs["uneven-slip"][0].config.robot.slip_sigma == 0.02
+    assert runs["swept"][0].config.lrf.sweep_time == pytest.approx(0.05)
+    whirl, fast = runs["whirl"][0], runs["fast"][0]
+    rates = np.diff(whirl.poses[:, 2]) / step
+    assert np.degrees([rates.min(), rates.max()]) == pytest.approx([-360, 360], rel=0.01)
+    assert np.ptp(whirl.poses[:, :2], axis=0) == pytest.approx([0, 0])
+    speeds = np.hypot(*np.diff(fast.poses[:, :2], axis=0).T) / step
+    assert speeds.max() == pytest.approx(1.2, rel=0.01)
+    assert np.hypot(fast.poses[:, 0], fast.poses[:, 1] - 0.1).min() >= 2
+    for course in (whirl, fast):
+        robot = course.config.robot
+        moves = np.diff(course.poses, axis=0) / step
+        outer = np.hypot(*moves[:, :2].T) + 0.5 * robot.track * np.abs(moves[:, 2])
+        assert outer.max() < robot.max_wheel_speed * robot.wheel_radius
+
+
+@pytest.mark.slow
+def test_a_robot_that_slips_is_kept_on_its_way():
+    pytest.importorskip("pybullet")
+    blind = load_config("thesis", {"camera.enabled": False})
+    tour = stress_runs(blind, ("lrf",), 1, seeds(4100))["uneven-slip"][1]
+    found = follow(tour)
+    off = np.hypot(*(found.true_pose - tour.poses[1:])[:, :2].T)
+    assert off.max() < 0.25
+    assert np.sqrt(np.mean(off**2)) < 0.10
+
+
+def test_a_robot_that_may_touch_a_wall_is_an_error_that_says_when():
+    pytest.importorskip("pybullet")
+    blind = load_config("thesis", {"camera.enabled": False})
+    poses = np.column_stack([np.linspace(3.5, 3.9, 21), np.full(21, 2.0), np.zeros(21)])
+    with pytest.raises(
+        ContactError, match=r"after .* s the robot was 0\.\d\d m from a wall, and it reaches 0\.15 m"
+    ):
+        follow(Course(config=blind, methods=("lrf",), poses=poses, seed=0))
 
 
 def test_scans_alone_come_near_their_limit_and_many_do_better():

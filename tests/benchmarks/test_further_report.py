@@ -22,9 +22,9 @@ METHODS = ("fused", "smooth")
 
 def watched(run, rng, sigma=0.004):
     """A run that never happened: errors of 4 mm and 0.5 deg, as stated, and innovations as they should be."""
-    n = max(len(run.actions), 60)
+    n = max(run.steps - 10, 60)
     t = 1.0 + 0.1 * np.arange(n)
-    true = np.tile(run.pose.as_array(), (n, 1))
+    true = np.tile([0.0, 2.0, 0.5], (n, 1))
     stated = np.diag((sigma**2, sigma**2, (0.5 * DEG) ** 2))
     track = Track(
         stamp=t,
@@ -92,7 +92,11 @@ def test_json_holds_limits_rest_drives_and_consistency(report):
     assert drive["rmse_xy_mm"] == pytest.approx(4 * 2**0.5, rel=0.3)
     assert drive["p99_yaw_deg"] == pytest.approx(1.29, rel=0.35)  # 2.58 standard deviations
     assert drive["valid_after_2s"] == 1.0
-    assert set(report["stress"]) == {"usual", "swept", "slip", "fast", "whirl"}
+    assert set(report["stress"]) == {"usual", "swept", "slip", "uneven-slip", "fast", "whirl"}
+    assert set(report["stress_consistency"]) == set(report["stress"])
+    slipped = report["stress_consistency"]["slip"]["smooth"]["nees"]["pose"]
+    assert slipped["runs"] == 3
+    assert slipped["over_time"] == pytest.approx(3.0, abs=0.6)
 
 
 def test_json_says_whether_errors_are_as_stated(report):
