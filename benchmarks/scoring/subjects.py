@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import importlib
+import inspect
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Final, Literal
 
 import numpy as np
 
@@ -18,6 +20,8 @@ from estimators.poses import Array, Pose2
 from estimators.room import Room
 
 Kind = Literal["localizer", "import", "file"]
+OFFERED: Final = ("start", "robot", "room", "seed")
+"""What a class or function that makes a localizer is given, if it has parameters of these names."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -84,7 +88,9 @@ def parse_subject(text: str, folder: Path) -> Subject:
     module, colon, attribute = target.partition(":")
     if colon and all(part.isidentifier() for part in (*module.split("."), attribute)):
         subject = Subject(name=name, kind="import", target=target, folder=str(folder))
-        as_estimator(_imported(subject))
+        thing = _imported(subject)
+        if _wanted(thing) is None:
+            as_estimator(thing)
         return subject
     if equals:
         return Subject(name=name, kind="file", target=target)
@@ -109,10 +115,40 @@ def make_localizer(
     if subject.kind == "localizer":
         made: Any = embedded_localizer(subject.target, robot, room, start, seed)
     else:
-        made = as_estimator(_imported(subject))
+        made = _made(_imported(subject), {"start": start, "robot": robot, "room": room, "seed": seed})
         if getattr(made, "wants_truth", False):
             made = Witness(made)
     return Guarded(made, subject.name)
+
+
+def _made(thing: Any, offered: Mapping[str, Any]) -> Any:
+    """A localizer made of what was imported, which is given what it asks for by name."""
+    names = _wanted(thing)
+    return as_estimator(thing if names is None else thing(**{name: offered[name] for name in names}))
+
+
+def _wanted(thing: Any) -> tuple[str, ...] | None:
+    """Which of `OFFERED` something that makes localizers has parameters for; None if it has none or wants others.
+
+    Raises:
+        ConfigError: If it is a class that cannot be made.
+    """
+    if not callable(thing) or not (inspect.isclass(thing) or inspect.isfunction(thing)):
+        return None
+    parameters = inspect.signature(thing).parameters.values()
+    names = tuple(p.name for p in parameters if p.name in OFFERED)
+    others = [
+        p.name for p in parameters if p.default is p.empty and p.name not in OFFERED and p.kind not in _REST
+    ]
+    if inspect.isclass(thing) and others:
+        raise ConfigError(
+            f"SUBJECT {thing.__name__}: wants {', '.join(others)}: a class may have parameters of the names "
+            f"{', '.join(OFFERED)}, and others only with defaults"
+        )
+    return names if names and not others else None
+
+
+_REST: Final = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
 
 
 def _imported(subject: Subject) -> Any:
