@@ -23,6 +23,7 @@ def scored(episodes: Sequence[Episode]) -> dict[str, Any]:
         "episodes": len(episodes),
         "success": success,
         "success_interval": wilson(sum(e.success for e in episodes), len(episodes)),
+        "failed_seeds": [e.seed for e in episodes if not e.success],
         "success_gt": _mean([e.success_gt for e in episodes]),
         "gap": _mean([float(e.success) - float(e.success_gt) for e in episodes]),
         "disagree": _mean([e.success != e.success_gt for e in episodes]),

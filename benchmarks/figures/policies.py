@@ -33,7 +33,7 @@ def ways_figure(episodes: Mapping[str, Sequence[Episode]], room: Room, radius: f
         draw_room(ax, room, margin=0.15)
         draw_ways(ax, driven[:SHOWN], radius)
         share = np.mean([e.success for e in driven])
-        ax.set_title(f"{name}: {100 * share:.0f} % of {len(driven)}")
+        ax.set_title(f"{name}: {100 * share:.1f} % of {len(driven)}")
         ax.label_outer()
     for ax in axes[len(episodes) :]:
         ax.set_axis_off()

@@ -88,6 +88,7 @@ def test_scores_are_means_and_shares(driven):
     assert polar["time_s"] == pytest.approx(np.mean([e.time for e in driven["polar"]]))
     assert polar["return"] == pytest.approx(sum(polar["reward_terms"].values()))
     assert random["success"] == 0
+    assert (polar["failed_seeds"], random["failed_seeds"]) == ([], [0, 1, 2, 3])
     assert random["time_s"] is None
     assert random["smoothness"] > 5 * polar["smoothness"]
     assert json.dumps(polar)
