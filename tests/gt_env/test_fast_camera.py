@@ -1,18 +1,14 @@
 """The closed-form camera against exact projection, a brute-force ray tracer and the engine's renderer."""
 
 import math
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from fast_camera_reference import at, errors, focal, needs_numba, pixels, share_wrong
 
 from gt_env.config import load_config
 from gt_env.fast_camera.renderer import FastRenderer
 from gt_env.sensors.rendering import Instant, camera_view, target_middle
-
-sys.path.insert(0, str(Path(__file__).parent))
-from fast_camera_reference import at, errors, focal, needs_numba, pixels, share_wrong
 
 
 @needs_numba

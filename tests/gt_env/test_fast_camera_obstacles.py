@@ -1,20 +1,16 @@
 """Boxes and cylinders before the closed-form camera: what hides what, and how well."""
 
 import math
-import sys
-from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
+from fast_camera_reference import at, errors, needs_numba, pixels, share_wrong
 
 from estimators.errors import ConfigError
 from gt_env.config import load_config
 from gt_env.fast_camera.renderer import FastRenderer
 from gt_env.sensors.rendering import Instant
-
-sys.path.insert(0, str(Path(__file__).parent))
-from fast_camera_reference import at, errors, needs_numba, pixels, share_wrong
 
 NEAR_PILLAR = {"shape": "cylinder", "position": (0.12, 1.2), "radius": 0.06, "height": 0.3}
 NEAR_STEP = {"shape": "box", "position": (-0.2, 1.3), "size": (0.15, 0.2, 0.1), "yaw_deg": -35}

@@ -1,19 +1,15 @@
 """What the closed-form camera makes of light, motion and noise."""
 
 import math
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from fast_camera_reference import at, focal
 
 from gt_env.config import load_config
 from gt_env.fast_camera.light import planck_gain
 from gt_env.fast_camera.noise import add_noise
 from gt_env.fast_camera.renderer import FastRenderer
-
-sys.path.insert(0, str(Path(__file__).parent))
-from fast_camera_reference import at, focal
 
 
 def test_noise_is_white_gaussian_and_repeatable():

@@ -6,13 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from fast_camera_reference import at
 
 from estimators.errors import ConfigError
 from gt_env.config import load_config
 from gt_env.fast_camera.renderer import FastRenderer
-
-sys.path.insert(0, str(Path(__file__).parent))
-from fast_camera_reference import at
 
 
 def test_refuses_what_it_cannot_draw():
