@@ -172,7 +172,7 @@ def run_validation(plan: Plan, *, jobs: int, console: Console, engine: Engine | 
     try:
         results = [
             *run_side_by_side(
-                _carry_out,
+                carry_out,
                 list(tasks.values()),
                 [task.steps for task in tasks.values()],
                 jobs=jobs,
@@ -226,7 +226,8 @@ def _numbered(name: str, i: int) -> str:
     return f"{name}, run {i + 1}"
 
 
-def _carry_out(task: Task, on_step: Callable[[], None] | None = None) -> Rollout | ScanFixes:
+def carry_out(task: Task, on_step: Callable[[], None] | None = None) -> Rollout | ScanFixes:
+    """Simulate one task."""
     if isinstance(task, ScanRun):
         return measure_scans(task, on_step)
     return follow(task, on_step) if isinstance(task, Course) else simulate(task, on_step)

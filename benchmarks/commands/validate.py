@@ -43,6 +43,7 @@ CamerasOption = Annotated[
 StressOption = Annotated[
     bool, typer.Option("--stress", help="Also swept scans, slipping wheels and high speed.")
 ]
+RoomsOption = Annotated[bool, typer.Option("--rooms", help="Also other rooms, targets and rangefinders.")]
 DEFAULT_METHODS = ("thesis", "fused", "smooth")
 
 
@@ -60,16 +61,19 @@ def validate(
     no_figures: NoFiguresOption = False,
     cameras: CamerasOption = False,
     stress: StressOption = False,
+    rooms: RoomsOption = False,
 ) -> None:
     """Repeat the thesis's validation beside its published numbers, and go beyond it: limits, honesty, other methods."""
     from benchmarks.cameras import plan_cameras, run_cameras
     from benchmarks.report.cameras import camera_tables
     from benchmarks.report.every_table import every_table
+    from benchmarks.report.rooms import room_tables
     from benchmarks.report.scores import score_validation
     from benchmarks.report.setup import describe, validate_command
     from benchmarks.report.terminal import rich_table
     from benchmarks.report.write import write_numbers, write_page
     from benchmarks.rollout import watched_arena
+    from benchmarks.rooms import plan_rooms, run_rooms
     from benchmarks.validation import plan_validation, run_validation
 
     methods, settings = _methods(method), configuration(config, overrides, calibration)
@@ -79,6 +83,7 @@ def validate(
     check_writable(out)
     plan = plan_validation(settings, methods, seed=seed, quick=quick, stress=stress)
     camera_plan = plan_cameras(settings, methods, seed=seed, quick=quick) if cameras else None
+    room_plan = plan_rooms(settings, methods, seed=seed, quick=quick) if rooms else None
     watched_arena(settings, methods).close()  # what is wrong with the set-up is said here, not by a worker
     console = Console()
     validation = run_validation(plan, jobs=jobs, console=console, engine=place)
@@ -86,9 +91,13 @@ def validate(
     if camera_plan is not None and validation.failed is None:
         compared = run_cameras(camera_plan, jobs=jobs, console=console, engine=place)
     failed = validation.failed or (compared.failed if compared else None)
+    elsewhere = None
+    if room_plan is not None and failed is None:
+        elsewhere = run_rooms(room_plan, jobs=jobs, console=console, engine=place)
+        failed = elsewhere.failed
     scores = score_validation(validation)
     command = validate_command(
-        config, overrides or [], seed, methods, quick=quick, cameras=cameras, stress=stress
+        config, overrides or [], seed, methods, quick=quick, cameras=cameras, stress=stress, rooms=rooms
     )
     command += "" if calibration is None else f" --calibration {shlex.quote(str(calibration))}"
     setup = describe(plan, command)
@@ -96,11 +105,12 @@ def validate(
         # What was simulated is kept; the tables and figures want all of it.
         setup["failed"] = {failure.task: failure.reason for failure in failed.failures}
         with staged(out) as folder:
-            write_numbers(folder, scores, setup, compared)
+            write_numbers(folder, scores, setup, compared, elsewhere)
         raise failed
-    tables = every_table(scores) + (camera_tables(compared) if compared else [])
+    tables = every_table(scores) + (room_tables(elsewhere) if elsewhere else [])
+    tables += camera_tables(compared) if compared else []
     with staged(out) as folder:
-        report = write_numbers(folder, scores, setup, compared)
+        report = write_numbers(folder, scores, setup, compared, elsewhere)
         if not no_figures:
             report = write_page(folder, validation, scores, tables, setup, console, compared)
     for table in tables:

@@ -75,12 +75,9 @@ def scan_runs(
     config: EnvConfig, singles: int, groups: int, seed: np.random.SeedSequence
 ) -> dict[str, ScanRun]:
     """One per test point; none if there is no LRF whose ranges are known in closed form, or it has no noise."""
-    lrf = config.lrf
-    closed_form = not any(obstacle.shape == "urdf" for obstacle in config.room.obstacles)
-    if not (lrf.enabled and closed_form and lrf.noise_sigma > 0):
+    plain = at_once(config)
+    if plain is None:
         return {}
-    # The robot does not move: a sweep is the same as a scan at once, and the engine is not needed.
-    plain = load_config(config, {"lrf.backend": "closed_form", "lrf.sweep_time": 0.0})
     mount = config.target.calibration().mount
     points = static_points(config)
     seeds = seed.generate_state(len(points)).tolist()
@@ -96,6 +93,18 @@ def scan_runs(
         )
         for (name, target), of in zip(targets.items(), seeds, strict=True)
     }
+
+
+def at_once(config: EnvConfig) -> EnvConfig | None:
+    """The same for scans of a robot at rest, or None where scans have no limit that can be computed.
+
+    The robot does not move: a sweep is the same as a scan at once, and the engine is not needed.
+    """
+    lrf = config.lrf
+    closed_form = not any(obstacle.shape == "urdf" for obstacle in config.room.obstacles)
+    if not (lrf.enabled and closed_form and lrf.noise_sigma > 0):
+        return None
+    return load_config(config, {"lrf.backend": "closed_form", "lrf.sweep_time": 0.0})
 
 
 def measure_scans(run: ScanRun, on_step: Callable[[], None] | None = None) -> ScanFixes:
@@ -127,9 +136,9 @@ def measure_scans(run: ScanRun, on_step: Callable[[], None] | None = None) -> Sc
     return ScanFixes(
         limit=one_scan_limit(run.config.calibration(), beam_bearings(run.config.lrf), run.point),
         axes=axes,
-        single=np.array(single),
+        single=np.array(single).reshape(-1, 2),
         single_nees=np.array(single_nees),
-        joint=np.array(joint),
+        joint=np.array(joint).reshape(-1, 2),
         joint_nees=np.array(joint_nees),
     )
 

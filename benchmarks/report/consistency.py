@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict
 from typing import Any
 
-from benchmarks.consistency import CONFIDENCE, LEVELS, PARTS, Consistency, Nees, Whiteness
+from benchmarks.consistency import CONFIDENCE, LEVELS, PARTS, Consistency, Coverage, Nees, Whiteness
 from benchmarks.report.scores import Scores
 from benchmarks.report.tables import NONE, Table, number
 
@@ -79,12 +80,17 @@ def consistency_json(judged: dict[str, dict[str, Consistency]]) -> dict[str, Any
         situation: {
             method: {
                 "nees": {name: {**asdict(n), "holds": n.holds} for name, n in found.nees.items()},
-                "coverage": [asdict(c) for c in found.coverage],
+                "coverage": [_covered(c) for c in found.coverage],
             }
             for method, found in of.items()
         }
         for situation, of in judged.items()
     }
+
+
+def _covered(c: Coverage) -> dict[str, float | None]:
+    """One run alone has no scatter."""
+    return {**asdict(c), "deviation": c.deviation if math.isfinite(c.deviation) else None}
 
 
 def whiteness_json(scores: Scores) -> dict[str, Any]:

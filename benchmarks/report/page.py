@@ -23,6 +23,7 @@ SECTIONS = {
     "moving": "Moving target",
     "consistency": "Does the station know how wrong it is?",
     "stress": "Harder drives",
+    "rooms": "Other rooms, targets and rangefinders",
     "cameras": "What the camera brings",
 }
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -122,7 +122,9 @@ def score_validation(validation: Validation) -> Scores:
     if v.driving:
         situations["driving"] = v.driving
     rng = np.random.default_rng(v.plan.seed)
-    judged, hard = (_honesty(of, methods, rng) for of in (situations, v.stress))
+    judged, hard = (
+        {name: honesty(of, methods, rng) for name, of in all_of.items()} for all_of in (situations, v.stress)
+    )
     watching = dict.fromkeys(HINDSIGHT[m] for m in methods if m in HINDSIGHT)
     white = {
         m: {kind: whiteness(v.driving, m, kind, after=STARTED) for kind in KINDS}
@@ -133,29 +135,26 @@ def score_validation(validation: Validation) -> Scores:
         static={m: {p: score(r.tracks[m], r.t) for p, r in v.static.items()} for m in methods},
         spreads={m: {p: spread(r.tracks[m]) for p, r in v.static.items()} for m in methods},
         moving={m: {d: score(r.tracks[m], r.t) for d, r in v.moving.items()} for m in methods},
-        travels={m: _together(travels, m) for m in methods},
-        scans={p: _scan_score(fixes) for p, fixes in v.scans.items()},
+        travels={m: together(travels, m) for m in methods},
+        scans={p: scan_score(fixes) for p, fixes in v.scans.items()},
         rest={m: {kind: _last(of, m) for kind, of in v.rest.items()} for m in methods},
         consistency=judged,
         whiteness={m: {kind: w for kind, w in of.items() if w is not None} for m, of in white.items()},
-        stress={m: {kind: _together(of, m) for kind, of in v.stress.items()} for m in methods},
+        stress={m: {kind: together(of, m) for kind, of in v.stress.items()} for m in methods},
         stress_honesty=hard,
     )
 
 
-def _honesty(
-    situations: Mapping[str, Sequence[Rollout]], methods: Sequence[str], rng: np.random.Generator
-) -> dict[str, dict[str, Consistency]]:
-    """By situation and then by method; methods that state no covariance are left out."""
-    found = {}
-    for name, rollouts in situations.items():
-        samples = [_one_sample(r, rng) for r in rollouts]
-        judged = {m: consistency([r.tracks[m] for r in rollouts], samples) for m in methods}
-        found[name] = {m: c for m, c in judged.items() if c is not None}
-    return found
+def honesty(
+    rollouts: Sequence[Rollout], methods: Sequence[str], rng: np.random.Generator
+) -> dict[str, Consistency]:
+    """By method; methods that state no covariance are left out. One sample of each run is drawn."""
+    samples = [_one_sample(r, rng) for r in rollouts]
+    judged = {m: consistency([r.tracks[m] for r in rollouts], samples) for m in methods}
+    return {m: c for m, c in judged.items() if c is not None}
 
 
-def _together(rollouts: Sequence[Rollout], method: str) -> Score:
+def together(rollouts: Sequence[Rollout], method: str) -> Score:
     """Over all samples of several runs."""
     return score(joined_tracks([r.tracks[method] for r in rollouts]), np.concatenate([r.t for r in rollouts]))
 
@@ -171,7 +170,8 @@ def _one_sample(rollout: Rollout, rng: np.random.Generator) -> int:
     return int(rng.choice(np.flatnonzero((t >= STARTED) & (t <= t[-1] - BEFORE_END))))
 
 
-def _scan_score(fixes: ScanFixes) -> ScanScore:
+def scan_score(fixes: ScanFixes) -> ScanScore:
+    """Of fixes around one point."""
     return ScanScore(
         limit=fixes.limit,
         axes=fixes.axes,

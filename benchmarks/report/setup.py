@@ -47,6 +47,7 @@ def validate_command(
     quick: bool,
     cameras: bool = False,
     stress: bool = False,
+    rooms: bool = False,
 ) -> str:
     """The command line that makes the same report again."""
     words = ["gt-env", "validate", "--config", config]
@@ -56,4 +57,5 @@ def validate_command(
     for method in methods:
         words += ["--method", method]
     words += ["--quick"] * quick + ["--cameras"] * cameras + ["--stress"] * stress
+    words += ["--rooms"] * rooms
     return shlex.join(words)

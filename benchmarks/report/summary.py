@@ -20,11 +20,16 @@ from benchmarks.report.scores import (
 )
 
 
-def report_json(scores: Scores, setup: dict[str, Any], cameras: dict[str, Any] | None = None) -> str:
+def report_json(
+    scores: Scores,
+    setup: dict[str, Any],
+    cameras: dict[str, Any] | None = None,
+    rooms: dict[str, Any] | None = None,
+) -> str:
     """Strict JSON: `setup`, `static` by method and point, `moving` by drive and method, and what else there is.
 
     `limits` by test point; `rest` by what the camera did, `travels` (all drives that go somewhere together) and
-    `stress` by method, `stress_consistency` as `consistency`; `consistency`, `whiteness`, `cameras`.
+    `stress` by method, `stress_consistency` as `consistency`; `consistency`, `whiteness`, `cameras`, `rooms`.
 
     `mean`, `std`, `mode` are x, y, yaw in [m, m, deg]; `mae` in [mm, mm, deg]; `valid` is a share of the
     samples; `nees` is null where a method states no covariance, any number where nothing valid was said.
@@ -33,17 +38,18 @@ def report_json(scores: Scores, setup: dict[str, Any], cameras: dict[str, Any] |
     report = {
         "setup": setup,
         "static": {method: _static(scores, method) for method in scores.methods},
-        "moving": {d: {m: _moving(scores.moving[m][d]) for m in scores.methods} for d in drives},
+        "moving": {d: {m: score_json(scores.moving[m][d]) for m in scores.methods} for d in drives},
     }
     further = {
-        "limits": {point: _limit(s) for point, s in scores.scans.items()},
+        "limits": {point: limit_json(s) for point, s in scores.scans.items()},
         "rest": _by_kind(scores.rest),
-        "travels": {m: _moving(s) for m, s in scores.travels.items() if s.n},
+        "travels": {m: score_json(s) for m, s in scores.travels.items() if s.n},
         "stress": _by_kind(scores.stress),
         "stress_consistency": consistency_json(scores.stress_honesty),
         "consistency": consistency_json(scores.consistency),
         "whiteness": whiteness_json(scores),
         "cameras": cameras,
+        "rooms": rooms,
     }
     report |= {key: value for key, value in further.items() if value}
     return json.dumps(report, indent=2, allow_nan=False) + "\n"
@@ -70,7 +76,8 @@ def _static(scores: Scores, method: str) -> dict[str, Any]:
     return points
 
 
-def _moving(score: Score) -> dict[str, Any]:
+def score_json(score: Score) -> dict[str, Any]:
+    """In the report's units."""
     return {
         "rmse_xy_mm": times(score.rmse_xy, MM),
         "max_xy_mm": times(score.max_xy, MM),
@@ -86,10 +93,11 @@ def _moving(score: Score) -> dict[str, Any]:
 def _by_kind(scores: dict[str, dict[str, Score]]) -> dict[str, Any]:
     """By kind and then by method."""
     kinds = next(iter(scores.values()), {})
-    return {kind: {m: _moving(of[kind]) for m, of in scores.items()} for kind in kinds}
+    return {kind: {m: score_json(of[kind]) for m, of in scores.items()} for kind in kinds}
 
 
-def _limit(s: ScanScore) -> dict[str, Any]:
+def limit_json(s: ScanScore) -> dict[str, Any]:
+    """Limit of one scan, what was reached, and many scans together."""
     return {
         "radial_mm": s.limit.radial_std * MM,
         "tangential_mm": s.limit.tangential_std * MM,

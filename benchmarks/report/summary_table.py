@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from benchmarks.consistency import Nees
+from benchmarks.consistency import Consistency
 from benchmarks.experiments.scans import TOGETHER
 from benchmarks.metrics import Score, root_mean_square
 from benchmarks.report.scores import DEGREES, MM, Scores, times
@@ -40,7 +40,7 @@ def drive_table(scores: Scores) -> Table:
     """Every drive, those that the thesis did not make as well."""
     drives = next(iter(scores.moving.values()))
     rows = [
-        (*named(drive, method, scores), *_cells(scores.moving[method][drive]))
+        (*named(drive, method, scores), *score_cells(scores.moving[method][drive]))
         for drive in drives
         for method in scores.methods
     ]
@@ -136,14 +136,11 @@ def stress_table(scores: Scores) -> Table:
             more = None
             if kind in COMPARED and usual is not None and s.rmse_xy is not None and usual.rmse_xy:
                 more = s.rmse_xy / usual.rmse_xy - 1
-            honest = scores.stress_honesty[kind].get(method)
             rows.append(
                 (
                     *named(kind, method, scores),
-                    *_cells(s)[:-1],
-                    NONE if honest is None else number(honest.nees["pose"].mean, 1),
-                    NONE if honest is None else _range(honest.nees["pose"]),
-                    NONE if honest is None else number(times(honest.coverage[-1].share, 100), 0),
+                    *score_cells(s)[:-1],
+                    *honest_cells(scores.stress_honesty[kind].get(method)),
                     number(times(more, 100), 0),
                 )
             )
@@ -158,11 +155,17 @@ def stress_table(scores: Scores) -> Table:
     )
 
 
-def _range(nees: Nees) -> str:
-    return f"{nees.low:.1f} to {nees.high:.1f}"
+def honest_cells(found: Consistency | None) -> tuple[str, str, str]:
+    """NEES over runs, between what it should lie, and the share inside the 95 % ellipse."""
+    if found is None:
+        return NONE, NONE, NONE
+    nees = found.nees["pose"]
+    share = number(100 * found.coverage[-1].share, 0)
+    return number(nees.mean, 1), f"{nees.low:.1f} to {nees.high:.1f}", share
 
 
-def _cells(s: Score) -> tuple[str, ...]:
+def score_cells(s: Score) -> tuple[str, ...]:
+    """For the columns `SCORED`."""
     valid = number(times(s.valid_later, 100), 1)
     return _mm(s.rmse_xy), _mm(s.max_xy), _degrees(s.mae[2]), _degrees(s.p99_yaw), valid, number(s.nees, 2)
 

@@ -9,18 +9,25 @@ from rich.console import Console
 
 from benchmarks.cameras import CameraScores
 from benchmarks.report.cameras import cameras_json
+from benchmarks.report.rooms import rooms_json
 from benchmarks.report.scores import Scores
 from benchmarks.report.summary import report_json
 from benchmarks.report.tables import Table
+from benchmarks.rooms import RoomScores
 from benchmarks.validation import Validation
 
 
 def write_numbers(
-    folder: Path, scores: Scores, setup: dict[str, Any], cameras: CameraScores | None = None
+    folder: Path,
+    scores: Scores,
+    setup: dict[str, Any],
+    cameras: CameraScores | None = None,
+    rooms: RoomScores | None = None,
 ) -> str:
     """Write `report.json`; returns its name."""
     compared = None if cameras is None else cameras_json(cameras)
-    (folder / "report.json").write_text(report_json(scores, setup, compared), encoding="utf-8")
+    elsewhere = None if rooms is None else rooms_json(rooms)
+    (folder / "report.json").write_text(report_json(scores, setup, compared, elsewhere), encoding="utf-8")
     return "report.json"
 
 
