@@ -42,6 +42,8 @@ REMEMBERED: Final = 64
 """Messages that are recognised when they come again."""
 UNMODELLED: Final = np.diag(np.square([2e-5, 2e-5, 5e-5]))
 """Covariance of what no measurement shows: the target's lean, play of the mount, uneven floor [m^2, rad^2]."""
+LEAST_DOUBT: Final = 1e-6 * np.eye(2)
+"""Covariance that a scan's search allows beyond the prediction's own [m^2]."""
 AGREE: Final = 0.3
 """Fixes of two scans in a row that lie this near are of the same target [m]."""
 
@@ -96,7 +98,7 @@ class FusedEstimator:
         self._track: Track | None = None
         self._lost: PoseEstimate | None = None  # the last estimate before the target was lost
         self._fix: PositionReading | None = None  # the last one that was believed
-        self._seen: MarkerMeasurement | None = None  # the last frame's
+        self._seen: MarkerReading | None = None  # the last frame's
         self._fix_stamp = self._yaw_stamp = -math.inf  # of what was accepted last
         self._missed = self._refused = 0
         self._known: deque[tuple[type, str, float]] = deque(maxlen=REMEMBERED)
@@ -137,8 +139,8 @@ class FusedEstimator:
             self._look_everywhere(scan)
             return
         velocity = self._track.velocity()
-        target, covariance = self._target(self._track, scan.stamp)
-        fix = self._reading(scan, self._scans.measure(scan, target, covariance, velocity))
+        target, covariance, _ = self._target(self._track, scan.stamp)
+        fix = self._reading(scan, self._scans.measure(scan, target, covariance + LEAST_DOUBT, velocity))
         innovation = self._track.take(fix) if fix else None
         if fix is not None and innovation is not None and innovation.accepted:
             self._missed, self._fix = 0, fix
@@ -171,11 +173,11 @@ class FusedEstimator:
     def _take_frame(self, markers: MarkerFit, frame: ImageFrame) -> None:
         if self._track is None:
             return
-        seen = markers.measure(frame, *self._target(self._track, frame.stamp))
+        target, covariance, yaw = self._target(self._track, frame.stamp)
+        seen = markers.measure(frame, target, covariance)
         if seen is None:
             return
-        seen = self._seen = seen.steadied(self._seen) if self._seen else seen
-        reading = MarkerReading(seen, self._mount)
+        reading = self._marker_reading(seen, seen.yaw if yaw is None else yaw)
         if not self._track.oriented or self._refused >= TURNED_AFTER:
             if self._fix is None or abs(frame.stamp - self._fix.stamp) > BLIND_AFTER:
                 return
@@ -196,14 +198,22 @@ class FusedEstimator:
         mount = self._mount if self._track and self._track.oriented else Pose2()
         return PositionReading(fix, mount, (self._lrf.x, self._lrf.y), abs(scan.bearing_increment))
 
-    def _target(self, track: Track, stamp: float) -> tuple[Array, Array]:
-        """Expected position of the target (2,) and its covariance (2, 2)."""
+    def _marker_reading(self, seen: MarkerMeasurement, yaw: float) -> MarkerReading:
+        """A frame as the filter takes it; `yaw` is the target's, as known before [rad]."""
+        side, before = yaw - seen.bearing, self._seen
+        if before is not None:
+            seen = seen.steadied(before.seen, math.remainder(side - before.side, 2 * math.pi))
+        self._seen = MarkerReading(seen, self._mount, side)
+        return self._seen
+
+    def _target(self, track: Track, stamp: float) -> tuple[Array, Array, float | None]:
+        """Expected position of the target (2,), its covariance (2, 2), and the target's yaw if known [rad]."""
         state, P = track.at(stamp)
-        covariance = P[:2, :2] + 1e-6 * np.eye(2)
+        covariance = P[:2, :2]
         if not track.oriented:
-            return state[:2], covariance
+            return state[:2], covariance, None
         target = Pose2(x=state[0], y=state[1], yaw=float(state[2])) @ self._mount
-        return np.array([target.x, target.y]), covariance
+        return np.array([target.x, target.y]), covariance, target.yaw
 
     def _estimate(self) -> PoseEstimate | None:
         return self._of_track(self._track) if self._track else self._lost

@@ -150,12 +150,15 @@ class MarkerReading:
     Attributes:
         seen: What the frame said.
         mount: Of the target on the robot.
+        side: Yaw of the target less its bearing, as known before the frame: which side it shows [rad]. A single frame
+            says it so much worse that lasting errors would fade at rest.
         R: See `Reading`.
         lasting: What one standard deviation of each of its biases does to bearing and yaw (2, k) [rad].
     """
 
     seen: MarkerMeasurement
     mount: Pose2
+    side: float
     R: Array = field(init=False)
     lasting: Array = field(init=False)
 
@@ -165,8 +168,9 @@ class MarkerReading:
         sigma = np.array([seen.limb_error, seen.shape_error / seen.distance])
         most = math.sqrt(MOST_ASIDE * float(covariance[0, 0]))
         sigma *= min(1.0, most / max(float(np.hypot(*sigma)), 1e-12))
-        aside = np.outer([1.0, covariance[0, 1] / covariance[0, 0]], sigma)
-        rest = covariance - aside @ aside.T
+        own = np.outer([1.0, covariance[0, 1] / covariance[0, 0]], sigma)
+        aside = np.outer([1.0, seen.lean], sigma)
+        rest = covariance - own @ own.T
         share = min(seen.systematic, MOST_LASTING)
         scale = seen.sensitivity * seen.scale_error * seen.distance
         object.__setattr__(self, "R", (1 - share) * rest)
@@ -216,8 +220,7 @@ class MarkerReading:
         """See `Reading`."""
         seen, earlier = self.seen, before.seen
         image, limbs = seen.repeats(earlier), seen.repeats_limbs(earlier)
-        turned = seen.yaw - seen.bearing - earlier.yaw + earlier.bearing
-        shape = math.exp(-abs(math.remainder(turned, 2 * math.pi)) / SHAPE_TURN)
+        shape = math.exp(-abs(math.remainder(self.side - before.side, 2 * math.pi)) / SHAPE_TURN)
         return np.tile([image, image, limbs, shape, shape], (len(velocities), 1))
 
     def first_pose(self, target: Array) -> Pose2:

@@ -91,13 +91,14 @@ class MarkerFit:
         across = math.sqrt(max(float(np.trace(covariance)) - along**2, 0.0))
         direction = frame.pan + c.pan_offset
         axis = float(wrap_angle(math.atan2(dy, dx) - direction))
-        problem, start, false_colors = self._see(frame, axis, (distance, max(along, 1e-3)), across / distance)
+        aside = across / distance
+        problem, start, false_colors = self._see(frame, axis, (distance, max(along, 1e-3)), aside)
         if problem is None:
             return None
         solution = self._solve(problem, start)
         if solution is None:
             return None
-        return self._measurement(frame.stamp, direction, problem, solution, false_colors)
+        return self._measurement(frame.stamp, direction, problem, solution, false_colors, (axis, aside))
 
     def _see(
         self, frame: ImageFrame, axis: float, distance: tuple[float, float], sigma: float
@@ -149,12 +150,22 @@ class MarkerFit:
         return bool(widths[problem.markers].max() > 1.0)
 
     def _measurement(
-        self, stamp: float, direction: float, problem: Problem, solution: Solution, false_colors: int
+        self,
+        stamp: float,
+        direction: float,
+        problem: Problem,
+        solution: Solution,
+        false_colors: int,
+        expected: tuple[float, float],
     ) -> MarkerMeasurement:
+        """`expected` is the predicted direction of the axis in the camera's frame, and its deviation [rad]."""
         axis, yaw, distance = (float(v) for v in solution.pose)
         # For a given distance: the information's block of bearing and yaw, and how they lean on the distance.
         covariance = np.linalg.inv(solution.information[:2, :2]) * max(1.0, solution.misfit)
         sensitivity = -np.linalg.solve(solution.information[:2, :2], solution.information[:2, 2])
+        # Where samples are the same although the pan has moved, what is seen does not show that it did.
+        doubt = expected[1] ** 2 / (expected[1] ** 2 + float(covariance[0, 0]))
+        known = expected[0] + doubt * (axis - expected[0])
         turn = (yaw - axis) * self._outline.radius / (distance - self._outline.radius)
         return MarkerMeasurement(
             stamp=stamp,
@@ -171,6 +182,7 @@ class MarkerFit:
             systematic=max(problem.systematic, 1 - 1 / max(1.0, solution.misfit)),
             limb_error=problem.lasting_limb * math.cos(axis) ** 2 / self._camera.focal,
             shape_error=problem.middle_error,
+            lean=float(covariance[0, 1] / covariance[0, 0]),
             scale_error=problem.scale_error,
-            view=np.array([float(self._camera.column(axis)), turn * self._camera.focal]),
+            view=np.array([float(self._camera.column(known)), turn * self._camera.focal]),
         )

@@ -14,7 +14,9 @@ SAME_PIXELS = 0.5
 a pixel's middle well before that."""
 
 STEADY = 0.9
-"""Weight of what was before in the sensitivity of a view that stays."""
+"""Weight of what was before in the sensitivity and the lean of a view that stays."""
+SAME_SIDE = 0.02
+"""How far the target turns until it has others [rad]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -43,10 +45,11 @@ class MarkerMeasurement:
             however it turns [rad].
         shape_error: How far the middle between the limbs may lie beside the target's axis, standard deviation [m];
             it lasts while the target shows the same side.
+        lean: How much the yaw is off where the limbs have moved the bearing, both at the same distance.
         scale_error: Standard deviation of the image's scale, as a share: what the width of the target, and with it
             the sensitivity, may be off.
-        view: (2,) where the pixel grid lies on the target [px]: column of the axis, and turn of the
-            circumference nearest to the camera.
+        view: (2,) where the pixel grid lies on the target [px]: column of the axis, as far as frame and prediction
+            together tell, and turn of the circumference nearest to the camera.
     """
 
     stamp: float
@@ -63,6 +66,7 @@ class MarkerMeasurement:
     systematic: float
     limb_error: float
     shape_error: float
+    lean: float
     scale_error: float
     view: Array
 
@@ -103,11 +107,20 @@ class MarkerMeasurement:
         """The same for the limbs alone, which do not mind that the target turns."""
         return max(0.0, 1.0 - abs(float(self.view[0] - earlier.view[0])) / SAME_PIXELS)
 
-    def steadied(self, earlier: MarkerMeasurement) -> MarkerMeasurement:
-        """The same with a sensitivity that follows an earlier frame's as far as the view is the same.
+    def steadied(self, earlier: MarkerMeasurement, turned: float) -> MarkerMeasurement:
+        """The same with a sensitivity and a lean that follow an earlier frame's while the target shows the same side.
 
-        Pixel noise moves the sensitivity and the yaw together. Frames of one view that differed in both would seem
-        to say at which distance they agree.
+        Which pixels the edges fall on moves both, and the yaw with them. Frames of one pose that differed in them
+        would seem to say at which distance, or for which shape, they agree. That the camera has turned is no reason
+        to begin anew.
+
+        Args:
+            earlier: A frame before.
+            turned: How far the side that the target shows has turned since, as far as is known [rad].
         """
-        share = STEADY * self.repeats(earlier)
-        return replace(self, sensitivity=self.sensitivity + share * (earlier.sensitivity - self.sensitivity))
+        share = STEADY * max(self.repeats(earlier), 1.0 - abs(turned) / SAME_SIDE, 0.0)
+        return replace(
+            self,
+            sensitivity=self.sensitivity + share * (earlier.sensitivity - self.sensitivity),
+            lean=self.lean + share * (earlier.lean - self.lean),
+        )

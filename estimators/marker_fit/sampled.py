@@ -15,8 +15,9 @@ SPREAD = 1.6
 """Samples are drawn this much wider than the least-squares solution."""
 SOFTNESS = 0.03
 """How far outside its pixel an edge may be, standard deviation [px]."""
-FOOT_SHAPE = 0.0008
-"""How much deeper such a renderer's facets lie where a marker's side meets the cylinder [m]."""
+FOOT_SHAPE = 0.002
+"""How much deeper such a renderer's facets may lie where a marker's side meets the cylinder [m]: 1.5 to 2.7 mm in their
+middles."""
 WIDEST = 0.05
 """Where yaw is known less well than this the edges are no straight functions of it [rad]."""
 FEWEST = 12.0

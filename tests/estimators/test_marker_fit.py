@@ -151,6 +151,19 @@ def test_a_repeated_view_is_not_a_new_measurement():
     assert c.correlation(a) == 0.0
 
 
+def test_a_camera_that_turned_has_another_view_even_of_the_same_samples():
+    """Half a pixel moves no sample over an edge now and then; what was predicted says that the grid has moved."""
+    calibration = pictures.room_calibration()
+    fit = MarkerFit(calibration)
+    frame = pictures.frame(calibration, (0, 2, 0.1), 0.0, samples=(1, 1))
+    on = 0.5 / calibration.camera.focal
+    same = ImageFrame(stamp=frame.stamp, rgb=frame.rgb, pan=frame.pan + on)
+    a, b = (fit.measure(f, (0.0, 2.0), 1e-8 * np.eye(2)) for f in (frame, same))
+    assert b.bearing - a.bearing == pytest.approx(on)
+    assert abs(b.view[0] - a.view[0]) == pytest.approx(0.5, abs=0.05)
+    assert b.repeats(a) < 0.1
+
+
 def test_another_target():
     target = TargetGeometry(radius=0.08, marker_angles=(0.0, 1.2, 2.5, 3.9, 5.1))
     target = dataclasses.replace(target, marker_colors=target.marker_colors[:5])

@@ -1,14 +1,17 @@
 """Projection and outline: round trips, finite differences, and what is hidden."""
 
+import dataclasses
 import math
 
 import numpy as np
 import pytest
 
 from estimators import CameraCalibration, TargetGeometry
+from estimators.fused.readings import SHAPE_TURN, MarkerReading
 from estimators.marker_fit import CameraModel
 from estimators.marker_fit.measurement import MarkerMeasurement
 from estimators.marker_fit.outline import TargetOutline
+from estimators.poses import Pose2
 
 BENT = CameraCalibration(distortion=(-0.12, 0.03), roll=math.radians(8), center_px=(160.0, 119.0))
 
@@ -95,6 +98,7 @@ def measurement():
         systematic=0.5,
         limb_error=0.0,
         shape_error=1e-5,
+        lean=5.0,
         scale_error=1e-3,
         view=np.zeros(2),
     )
@@ -115,3 +119,24 @@ def test_an_innovation_is_wrapped(measurement):
     x, y = 2 * math.cos(1.2), 0.1 + 2 * math.sin(1.2)
     residual, _ = measurement.innovation(x, y, 0.4 + 4 * math.pi)
     np.testing.assert_allclose(residual, 0, atol=1e-12)
+
+
+def test_a_view_stays_steady_however_the_camera_turns_until_the_target_does(measurement):
+    other = dataclasses.replace(
+        measurement, view=np.array([3.3, 0.4]), sensitivity=np.array([0.0, 0.5]), lean=9.0
+    )
+    kept = other.steadied(measurement, 0.0)
+    np.testing.assert_allclose(kept.sensitivity, 0.9 * measurement.sensitivity + 0.1 * other.sensitivity)
+    assert kept.lean == pytest.approx(0.9 * 5.0 + 0.1 * 9.0)
+    turned = other.steadied(measurement, 0.1)
+    assert (turned.lean, turned.sensitivity.tolist()) == (9.0, [0.0, 0.5])
+
+
+def test_errors_of_the_shape_last_while_the_target_shows_the_same_side(measurement):
+    """One frame reads the yaw wrongly by a degree at random: that is no turn."""
+    aside = dataclasses.replace(measurement, yaw=measurement.yaw + 0.03, view=np.array([3.3, 0.4]))
+    before, same = MarkerReading(measurement, Pose2(), 0.5), MarkerReading(aside, Pose2(), 0.5)
+    turned = MarkerReading(aside, Pose2(), 0.5 + 2 * math.pi - 0.4)
+    still = np.zeros((1, 2))
+    np.testing.assert_allclose(same.kept(before, still), [[0, 0, 0, 1, 1]])
+    np.testing.assert_allclose(turned.kept(before, still)[0, 3:], math.exp(-0.4 / SHAPE_TURN))
