@@ -138,9 +138,17 @@ def check_drive(name: str, start: Pose2, segments: list[Segment], config: EnvCon
             f"robot.max_wheel_speed = {robot.max_wheel_speed}: must be at least {fastest:.1f} rad/s for the "
             f"drive {name!r}"
         )
+    check_room(name, ideal_poses(start, segments, config, period=config.timing.step), config)
+
+
+def check_room(name: str, poses: Array, config: EnvConfig) -> None:
+    """Refuse a drive along poses (N, 3) that the room is too small for.
+
+    Raises:
+        ConfigError: If the robot would come too near to a wall.
+    """
     room = config.room.in_station_frame()
-    driven = ideal_poses(start, segments, config, period=config.timing.step)
-    nearest = min(room.clearance((x, y)) for x, y, _ in driven)
+    nearest = min(room.clearance((x, y)) for x, y, _ in poses)
     if nearest < MARGIN:
         raise ConfigError(
             f"room.vertices: the drive {name!r}, shrunk by {room_scale(config):.2f}, comes as near as "

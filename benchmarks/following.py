@@ -10,9 +10,12 @@ from typing import Final
 
 import numpy as np
 
+from benchmarks.driving import check_room
 from benchmarks.policies.twist import TwistDrive
+from estimators.errors import ConfigError
 from estimators.poses import Array, wrap_angle
 from gt_env.config import EnvConfig
+from gt_env.robot import action_for
 
 ALONG_GAIN: Final = 1.0
 """Of the way that the robot is behind [1/s]."""
@@ -36,11 +39,7 @@ class Follower:
     def __init__(self, poses: Array, config: EnvConfig) -> None:
         self._poses = poses
         self._drive = TwistDrive(config)
-        moves = np.diff(poses, axis=0)
-        ahead = poses[:-1, 2] + 0.5 * moves[:, 2]
-        chords = moves[:, 0] * np.cos(ahead) + moves[:, 1] * np.sin(ahead)
-        self._speeds = chords / np.sinc(0.5 * moves[:, 2] / np.pi) / config.timing.step
-        self._rates = moves[:, 2] / config.timing.step
+        self._speeds, self._rates = _twists(poses, config.timing.step)
 
     @property
     def steps(self) -> int:
@@ -58,3 +57,41 @@ class Follower:
             speed * math.cos(yaw) + ALONG_GAIN * along,
             rate + ACROSS_GAIN * speed * np.sinc(yaw / np.pi) * across + YAW_GAIN * math.sin(yaw),
         )
+
+
+def check_followed(name: str, poses: Array, config: EnvConfig) -> None:
+    """Refuse a drive that the room is too small for or the robot cannot follow.
+
+    Args:
+        name: Of the drive, for the message.
+        poses: As for `Follower`.
+        config: Of the environment.
+
+    Raises:
+        ConfigError: If it comes too near to a wall, is too fast for the wheels or bends too sharply for the steering.
+    """
+    check_room(name, poses, config)
+    robot = config.robot
+    twists = np.unique(np.column_stack(_twists(poses, config.timing.step)), axis=0)
+    asked = np.array([action_for(robot, np.array([speed, 0.0, rate])) for speed, rate in twists])
+    if robot.model == "ackermann":
+        if np.abs(asked[:, 1]).max() > 1:
+            raise ConfigError(
+                f"robot.model = 'ackermann': the drive {name!r} turns more sharply than a steering angle of "
+                f"{robot.max_steering_deg:g} deg allows, or on the spot"
+            )
+        asked = asked[:, :1]
+    fastest = float(np.abs(asked).max()) * robot.max_wheel_speed
+    if fastest > robot.max_wheel_speed:
+        raise ConfigError(
+            f"robot.max_wheel_speed = {robot.max_wheel_speed}: must be at least {fastest:.1f} rad/s for the drive "
+            f"{name!r}"
+        )
+
+
+def _twists(poses: Array, step: float) -> tuple[Array, Array]:
+    """Speed [m/s] and turn rate [rad/s] (N - 1,) that lead along arcs from pose to pose (N, 3)."""
+    moves = np.diff(poses, axis=0)
+    ahead = poses[:-1, 2] + 0.5 * moves[:, 2]
+    chords = moves[:, 0] * np.cos(ahead) + moves[:, 1] * np.sin(ahead)
+    return chords / np.sinc(0.5 * moves[:, 2] / np.pi) / step, moves[:, 2] / step

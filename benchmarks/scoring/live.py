@@ -9,8 +9,9 @@ from typing import Any
 import gymnasium as gym
 import numpy as np
 
-from benchmarks.driving import DRIVES, Segment, actions, script, start_pose
-from benchmarks.paths import CALM_SPEED, LONG_DRIVE, PATHS, path_script, path_start
+from benchmarks.driving import DRIVES, ideal_poses, script, start_pose
+from benchmarks.following import Follower, check_followed
+from benchmarks.paths import CALM_SPEED, LONG_DRIVE, PATHS, timed_poses
 from benchmarks.recording.writer import RecordingWriter
 from benchmarks.rollout import ARENA
 from benchmarks.scoring.judge import JudgedRun, Rules, judge
@@ -30,7 +31,7 @@ class LiveRun:
         subjects: Who is scored.
         path: One of `PATHS` or `DRIVES`.
         duration: Of a path [s]; drives take as long as they take.
-        speed: On a path [m/s].
+        speed: The greatest on a path [m/s].
         seed: Of the episode; the localizers' own randomness has the seed of the rules, as in a recording.
         number: Of the run among all.
         rules: How it is judged.
@@ -49,19 +50,19 @@ class LiveRun:
     recording: str = ""
     series: bool = True
 
-    def plan(self) -> tuple[Pose2, Array]:
-        """Where the run starts, and its actions (steps, 2).
+    def plan(self) -> Array:
+        """Where the robot is to be at the start and at the end of each step (N, 3) [m, m, rad].
 
         Raises:
-            ConfigError: If it does not fit into the room.
+            ConfigError: If it does not fit into the room, or the robot cannot follow.
         """
-        segments: list[Segment]
         if self.path in PATHS:
-            start = path_start(self.path, self.config)
-            segments = path_script(self.path, self.config, speed=self.speed, duration=self.duration)
+            poses = timed_poses(self.path, self.config, speed=self.speed, duration=self.duration, even=False)
         else:
             start, segments = start_pose(self.path, self.config), script(self.path, self.config)
-        return start, actions(segments, self.config, self.config.timing.step)
+            poses = ideal_poses(start, segments, self.config, period=self.config.timing.step)
+        check_followed(self.path, poses, self.config)
+        return poses
 
 
 def path_named(text: str) -> str:
@@ -80,21 +81,26 @@ def path_named(text: str) -> str:
 
 
 def score_live(run: LiveRun, on_step: Callable[[], None] | None = None) -> JudgedRun:
-    """Drive, let station and localizers listen, and judge."""
-    start, commands = run.plan()
+    """Drive, let station and localizers listen, and judge.
+
+    The robot is steered by its true pose: what the localizers think moves nothing, and wheels that slip lead it
+    into no wall.
+    """
+    poses = run.plan()
+    follower, start = Follower(poses, run.config), Pose2.of(poses[0])
     env: gym.Env[Any, Any] = gym.make(ARENA, config=run.config, disable_env_checker=True)
     recorder = RecordingWriter(run.recording, run.config) if run.recording else None
     try:
         base: Any = env.unwrapped
-        env.reset(seed=run.seed, options={"pose": tuple(start)})
+        _, info = env.reset(seed=run.seed, options={"pose": tuple(start)})
         localizers = {
             s.name: make_localizer(s, base.believed_robot, base.believed_map, start, run.rules.seed)
             for s in run.subjects
         }
         watch = Watch(base.believed_calibration, localizers)
         truth = [_listen(watch, base, recorder)]
-        for command in commands:
-            env.step(command)
+        for step in range(follower.steps):
+            _, _, _, _, info = env.step(follower.action(step, info["true_pose"]))
             truth.append(_listen(watch, base, recorder))
             if on_step is not None:
                 on_step()

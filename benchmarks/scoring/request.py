@@ -226,7 +226,7 @@ def carry_out(request: Request, *, jobs: int, engine: Engine, console: Console) 
         runs = run_side_by_side(
             score_live,
             tasks,
-            [len(commands) for _, commands in plans],
+            [len(poses) - 1 for poses in plans],
             jobs=jobs,
             label="driving",
             console=console,

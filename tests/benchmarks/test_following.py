@@ -5,12 +5,15 @@ import math
 import numpy as np
 import pytest
 
-from benchmarks.following import Follower
+from benchmarks.driving import ideal_poses, script, start_pose
+from benchmarks.following import Follower, check_followed
 from benchmarks.paths import PATHS, timed_poses
+from estimators.errors import ConfigError
 from estimators.poses import Pose2
 from gt_env.config import load_config
 
 CONFIG = load_config("thesis")
+CORRIDOR = [[-3.0, -0.03], [3.0, -0.03], [3.0, 1.2], [-3.0, 1.2]]
 MAX_SPEED = CONFIG.robot.max_wheel_speed * CONFIG.robot.wheel_radius
 
 
@@ -61,3 +64,32 @@ def test_on_the_figure_of_eight_an_unhurried_robot_is_fastest_at_the_crossing() 
     assert speeds.max() == pytest.approx(0.37, rel=1e-3)
     assert ways[fastest] < 0.2
     assert speeds[20:-20].min() < 0.8 * 0.37
+
+
+@pytest.mark.parametrize(
+    ("path", "changes", "says"),
+    [
+        ("spin", {"robot.model": "ackermann"}, "'spin' turns more sharply than a steering angle of 30 deg"),
+        ("spin", {"robot.model": "omni3"}, None),
+        ("figure-of-eight", {"robot.model": "ackermann"}, None),
+        (
+            "figure-of-eight",
+            {"robot.model": "omni3", "robot.max_wheel_speed": 8.0},
+            "robot.max_wheel_speed = 8",
+        ),
+        ("figure-of-eight", {"room.vertices": CORRIDOR, "robot.start": [0.0, 0.6]}, "to a wall"),
+    ],
+)
+def test_what_room_or_robot_do_not_allow_is_refused(path: str, changes: dict, says: str | None) -> None:
+    config = load_config("thesis", changes)
+    if path in PATHS:
+        poses = timed_poses(path, config, speed=0.37)
+    else:
+        segments = script(path, config)
+        poses = ideal_poses(start_pose(path, config), segments, config, period=config.timing.step)
+    if says is None:
+        check_followed(path, poses, config)
+        assert Follower(poses, config).steps > 100
+        return
+    with pytest.raises(ConfigError, match=says):
+        check_followed(path, poses, config)

@@ -89,6 +89,18 @@ def test_a_planted_localizer_comes_out_as_it_was_planted():
     assert planted["availability"] == 1.0
 
 
+def test_wheels_that_slip_lead_the_robot_nowhere_else():
+    changes = {"robot.slip_sigma": 0.1, "lrf.enabled": False, "camera.enabled": False}
+    run = LiveRun(
+        config=load_config("onboard", SMALL | changes), subjects=subjects("odometry"), path="figure-of-eight",
+        seed=5, number=0, rules=Rules(), duration=20.0,
+    )  # fmt: skip
+    plan, truth = run.plan(), score_live(run).truth
+    there = truth.at(0.1 * np.arange(1, len(plan)), 0.1)
+    assert there.valid.all()
+    assert np.hypot(*(there.poses - plan[1:])[:, :2].T).max() < 0.06
+
+
 def test_live_recording_and_trajectory_files_agree(recorded):
     run, folder, names = recorded
     recording = read_recording(folder / "run.mcap")
