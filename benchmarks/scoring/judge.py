@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from benchmarks.scoring.errors import RunErrors, run_errors
+from benchmarks.scoring.reference_errors import ReferenceErrors, reference_errors
 from benchmarks.scoring.station import REFERENCES, Histories, Station, calibrated_to
 from benchmarks.scoring.watch import Answers
 from benchmarks.trajectory.alignment import Alignment
@@ -67,6 +68,7 @@ class JudgedRun:
         answers: By subject.
         references: By name.
         truth: Where it is known.
+        reference_errors: By reference, likewise.
     """
 
     name: str
@@ -75,6 +77,7 @@ class JudgedRun:
     answers: Mapping[str, Answers]
     references: Mapping[str, Trajectory] = field(default_factory=dict)
     truth: Trajectory | None = None
+    reference_errors: Mapping[str, ReferenceErrors] = field(default_factory=dict)
 
     def without_series(self) -> JudgedRun:
         """The same for the numbers alone."""
@@ -112,7 +115,20 @@ def judge(
         judged[reference] = {
             subject: _judged(said, trajectory, histories, true, rules) for subject, said in answers.items()
         }
-    return JudgedRun(name=name, seed=seed, judged=judged, answers=answers, references=references, truth=true)
+    erred = {
+        r: found
+        for r, said in references.items()
+        if true is not None and (found := reference_errors(said, true, TRUTH_GAP)) is not None
+    }
+    return JudgedRun(
+        name=name,
+        seed=seed,
+        judged=judged,
+        answers=answers,
+        references=references,
+        truth=true,
+        reference_errors=erred,
+    )
 
 
 def _judged(

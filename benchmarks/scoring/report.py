@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from typing import Any
 
 from benchmarks.report.scores import DEGREES, MM
+from benchmarks.scoring.checks import Checked
 from benchmarks.scoring.comparison import Comparison
 from benchmarks.scoring.quantities import Corrected
 from benchmarks.scoring.summary import Score, SubjectSummary
-from benchmarks.scoring.verdicts import JUDGED, ratio_of_true_error, verdict
+from benchmarks.scoring.verdicts import JUDGED, near, ratio_of_true_error, verdict
 from benchmarks.trajectory.offsets import NAMES, Offsets
 
 UNITS = {"position": "mm", "along": "mm", "cross": "mm", "yaw": "deg"}
@@ -39,6 +41,7 @@ def report(
     ranks: Mapping[str, int],
     reference: str,
     setup: Mapping[str, Any],
+    checks: Mapping[str, Checked],
 ) -> str:
     """The text of `report.json`; what is not known is null."""
     subjects = {
@@ -48,6 +51,7 @@ def report(
         "setup": setup,
         "subjects": subjects,
         "comparisons": [_comparison(c) for c in comparisons],
+        "checks": {name: _check(of) for name, of in checks.items()},
     }
     return json.dumps(content, indent=2, allow_nan=False) + "\n"
 
@@ -84,6 +88,7 @@ def _score(score: Score) -> dict[str, Any]:
         "ratios": dict(score.ratios),
         "ratio_intervals": {judged: _ratio_interval(score.scores.get(q)) for judged, q in JUDGED.items()},
         "verdicts": score.verdicts,
+        "verdicts_near": {judged: near(score.scores.get(q)) for judged, q in JUDGED.items()},
         "ratios_from_truth": dict(score.true_ratios) if known else None,
         "verdicts_from_truth": score.true_verdicts if known else None,
         "verdicts_of_true_error": {
@@ -157,6 +162,19 @@ def _offsets(offsets: Offsets) -> dict[str, Any]:
         found[f"{name}_{unit}"] = factor * float(offsets.values[i]) if seen else None
         found[f"{name}_error_{unit}"] = factor * float(offsets.errors[i]) if seen else None
     return found | {"not_observable": list(offsets.unseen)}
+
+
+def _check(of: Checked) -> dict[str, Any]:
+    """How the station really erred, and how often a single run's intervals and verdicts were right."""
+    position, yaw = of.station
+    return {
+        "runs": of.runs,
+        "variance_over_stated": {"position": _finite(position.ratio), "yaw": _finite(yaw.ratio)},
+        "lasts_s": {"position": _finite(position.lasts), "yaw": _finite(yaw.lasts)},
+        "intervals_held": of.held,
+        "all_intervals_held": of.all_held,
+        "verdicts": None if of.agreement is None else asdict(of.agreement),
+    }
 
 
 def _comparison(c: Comparison) -> dict[str, Any]:

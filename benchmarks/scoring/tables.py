@@ -6,22 +6,18 @@ from collections.abc import Mapping, Sequence
 
 from benchmarks.report.scores import DEGREES, MM, times
 from benchmarks.report.tables import NONE, Table
+from benchmarks.scoring.checks import Checked
 from benchmarks.scoring.comparison import Comparison
 from benchmarks.scoring.quantities import Corrected
 from benchmarks.scoring.report import OF_JUDGED, OFFSET_UNITS, unit_of
 from benchmarks.scoring.summary import Score, SubjectSummary
-from benchmarks.scoring.verdicts import JUDGED, MARGINAL, SUFFICIENT, verdict
+from benchmarks.scoring.verdict_tables import check_table, number, verdict_table
 from benchmarks.trajectory.alignment import TITLES, Alignment
 from benchmarks.trajectory.offsets import NAMES
 
 READING = (
     "All are root mean squares. vs gt: against the station, less its own stated variance; 95 %: holds what the error "
     "of these very runs was; another run: 95 % interval of what very many such runs would bring."
-)
-VERDICTS = (
-    f"Ratio of the localizer's error to the station's stated standard uncertainty: from {SUFFICIENT:g} on sufficient, "
-    f"from {MARGINAL:g} on marginal, below that the station cannot judge it. Relative: over 1 m. In brackets, where "
-    "the truth is known: the ratio of the errors as they were."
 )
 
 
@@ -31,6 +27,7 @@ def score_tables(
     ranks: Mapping[str, int],
     reference: str,
     align: Alignment,
+    checks: Mapping[str, Checked],
 ) -> list[Table]:
     """All tables in the order of the page; subjects by rank."""
     order = ordered(summaries, ranks, reference)
@@ -38,7 +35,7 @@ def score_tables(
     tables = [
         _scores(order, ranks, reference, "position", f"Position, {against}", READING),
         _scores(order, ranks, reference, "yaw", f"Yaw, {against}", ""),
-        _verdicts(order),
+        verdict_table(order),
         _health(order),
         _motion(order, reference),
     ]
@@ -46,6 +43,8 @@ def score_tables(
         tables.append(_offsets(order, reference))
     if comparisons:
         tables.append(_comparisons(comparisons))
+    if checks:
+        tables.append(check_table(checks))
     return tables
 
 
@@ -109,18 +108,6 @@ def _motion(order: Sequence[SubjectSummary], reference: str) -> Table:
                  rows=tuple(rows), note=note)  # fmt: skip
 
 
-def _verdicts(order: Sequence[SubjectSummary]) -> Table:
-    rows = []
-    for s in order:
-        for reference, score in s.by_reference.items():
-            if score is None:
-                continue
-            cells = [_verdict(score.ratios[what], score.true_ratios[what]) for what in JUDGED]
-            rows.append((f"{s.name}, {reference}", *cells))
-    head = ("subject, reference", *JUDGED)
-    return Table(title="May this station judge it?", head=head, rows=tuple(rows), note=VERDICTS)
-
-
 def _health(order: Sequence[SubjectSummary]) -> Table:
     rows = []
     for s in order:
@@ -128,12 +115,12 @@ def _health(order: Sequence[SubjectSummary]) -> Table:
         rows.append(
             (
                 s.name,
-                _number(score.nees if score else None, 2),
-                _number(score.nees_true if score else None, 2),
+                number(score.nees if score else None, 2),
+                number(score.nees_true if score else None, 2),
                 f"{100 * s.availability:.1f}",
-                _number(times(s.latency[0], MM) if s.latency else None, 1),
-                _number(times(s.latency[1], MM) if s.latency else None, 1),
-                _number(times(s.update_time, 1e6), 0),
+                number(times(s.latency[0], MM) if s.latency else None, 1),
+                number(times(s.latency[1], MM) if s.latency else None, 1),
+                number(times(s.update_time, 1e6), 0),
                 "; ".join(p.partition(": ")[2] for p in s.problems) or NONE,
             )
         )
@@ -206,25 +193,15 @@ def _cells(score: Score | None, name: str, factor: float, digits: int) -> tuple[
         _one(c, factor, digits),
         _range(c.interval, factor, digits),
         _range(score.expected.get(name), factor, digits),
-        _number(times(c.true, factor), digits),
+        number(times(c.true, factor), digits),
     )
 
 
 def _one(c: Corrected | None, factor: float, digits: int) -> str:
-    return _number(None if c is None else factor * c.value, digits)
+    return number(None if c is None else factor * c.value, digits)
 
 
 def _range(interval: tuple[float, float] | None, factor: float, digits: int) -> str:
     if interval is None:
         return NONE
     return f"{factor * interval[0]:.{digits}f} … {factor * interval[1]:.{digits}f}"
-
-
-def _verdict(value: float | None, true: float | None) -> str:
-    if value is None:
-        return NONE
-    return f"{verdict(value)} {value:.1f}" + ("" if true is None else f" ({true:.1f})")
-
-
-def _number(value: float | None, digits: int) -> str:
-    return NONE if value is None else f"{value:.{digits}f}"

@@ -35,6 +35,14 @@ def ratio_of_true_error(found: Corrected | None) -> float | None:
     return found.true / found.stated
 
 
+def near(found: Corrected | None) -> float | None:
+    """The bound, 4 or 2, on either side of which the ratio may lie with 95 %; None if its verdict is clear."""
+    if found is None or found.stated <= 0:
+        return None
+    low, high = (end / found.stated for end in found.interval)
+    return next((bound for bound in (SUFFICIENT, MARGINAL) if low < bound <= high), None)
+
+
 def verdict(value: float | None) -> Verdict:
     """What a ratio amounts to."""
     if value is None:

@@ -15,6 +15,7 @@ from rich.console import Console
 from benchmarks.report.plates import Plate
 from benchmarks.report.scores import MM
 from benchmarks.report.tables import NONE, Table
+from benchmarks.scoring.checks import checked
 from benchmarks.scoring.comparison import Comparison, compare, ranks
 from benchmarks.scoring.judge import JudgedRun, Rules
 from benchmarks.scoring.report import report
@@ -71,11 +72,18 @@ class Result:
 
     def tables(self) -> list[Table]:
         """For terminal and page."""
-        return score_tables(self.summaries, self.comparisons, self.ranks, self.reference, self.rules.align)
+        return score_tables(
+            self.summaries,
+            self.comparisons,
+            self.ranks,
+            self.reference,
+            self.rules.align,
+            checked(self.runs),
+        )
 
     def json(self, setup: Mapping[str, Any]) -> str:
         """The text of `report.json`."""
-        return report(self.summaries, self.comparisons, self.ranks, self.reference, setup)
+        return report(self.summaries, self.comparisons, self.ranks, self.reference, setup, checked(self.runs))
 
 
 def write_page(folder: Path, result: Result, room: Room, setup: Mapping[str, Any], console: Console) -> None:

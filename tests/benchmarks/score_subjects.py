@@ -31,6 +31,21 @@ class Planted:
         return PoseEstimate(stamp=message.stamp, pose=pose, covariance=covariance)
 
 
+class Elsewhere(Planted):
+    """A clock that is 20 ms slow, and the pose of a point 50 mm ahead of the base, with 5 mm of noise per axis."""
+
+    CLOCK, AHEAD, NOISE = 0.020, 0.050, 0.005
+
+    def update(self, message):
+        if not isinstance(message, WheelOdometry) or message.stamp < self.CLOCK:
+            return None
+        x, y, yaw = self.pose
+        pose = np.array([x + self.AHEAD * np.cos(yaw), y + self.AHEAD * np.sin(yaw), yaw])
+        pose += self.rng.normal(0.0, [self.NOISE, self.NOISE, 0.002])
+        covariance = np.diag([self.NOISE**2, self.NOISE**2, 4e-6])
+        return PoseEstimate(stamp=message.stamp - self.CLOCK, pose=pose, covariance=covariance)
+
+
 class Worse(Planted):
     """Half as much noise again."""
 

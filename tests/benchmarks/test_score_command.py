@@ -2,6 +2,7 @@
 
 import json
 import re
+import shutil
 import sys
 from pathlib import Path
 
@@ -62,6 +63,25 @@ def test_the_tutorial_runs_as_it_stands(command, tmp_path):
         assert subject["estimate_vs_gt"]["ate_mm"] < 100  # it starts where it should and goes the right way
         assert subject["availability"] > 0.95
     assert [c["what"] for c in report["comparisons"]] in ([], ["position", "yaw", "relative"])
+
+
+@pytest.mark.slow
+def test_a_planted_clock_offset_and_lever_arm_are_found_on_the_figure_of_eight(command, tmp_path):
+    shutil.copy(Path(__file__).parent / "score_subjects.py", tmp_path / "planted_elsewhere.py")
+    status, said = command(
+        "score", "it=planted_elsewhere:Elsewhere", "--path", "eight", "--seeds", "1", "--duration", "60",
+        "--jobs", "1", "--no-figures",
+    )  # fmt: skip
+    assert status == 0, said
+    offsets = json.loads((tmp_path / "out/score/report.json").read_text())["subjects"]["it"]["offsets"]
+
+    assert offsets["not_observable"] == []
+    for name, unit, planted in (
+        ("clock", "ms", 20), ("lever_x", "mm", -50), ("lever_y", "mm", 0), ("lever_yaw", "deg", 0),
+    ):  # fmt: skip
+        error = offsets[f"{name}_error_{unit}"]
+        assert abs(offsets[f"{name}_{unit}"] - planted) < 3 * error
+        assert error < 0.05 * 50  # and so precisely that it is no wonder
 
 
 def test_it_writes_a_page_with_its_figures(command, tmp_path):
