@@ -67,7 +67,8 @@ SETTINGS: Final[dict[str, Setting]] = {
         points=((1.0, 1.0), (4.0, 3.0), (0.5, 3.0), (4.5, 0.5)),
     ),
     "target radius 0.08 m": Setting(changes={"target.radius": 0.08}),
-    "target radius 0.15 m": Setting(changes={"target.radius": 0.15}),
+    # So wide a target has to stand above the wheels.
+    "target radius 0.15 m": Setting(changes={"target.radius": 0.15, "target.z_min": 0.095}),
     **{f"LRF {scanner}": Setting(scanner=scanner) for scanner in SCANNERS},
 }
 """By name; the first is what the others are compared with."""

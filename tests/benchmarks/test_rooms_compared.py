@@ -22,6 +22,8 @@ def test_each_setting_is_what_it_is_called_and_the_rest_stays_as_configured():
     assert (high_x - low_x, high_y - low_y) == pytest.approx((6, 3))
     assert configs["L-shaped"].room.in_station_frame().clearance((2.0, 3.0)) < 0  # cut out
     assert configs["station in a corner"].room.in_station_frame().clearance((0.0, 0.0)) == pytest.approx(0.05)
+    wide = configs["target radius 0.15 m"]
+    assert wide.target.z_min > 2 * wide.robot.wheel_radius  # else it would reach into them
     for radius in (0.08, 0.15):
         assert configs[f"target radius {radius:.2f} m"].target.radius == radius
     for scanner in ("sick_lms101", "hokuyo_utm30lx"):
