@@ -175,7 +175,7 @@ def _facts(result: Result) -> list[dict[str, str]]:
                 "value": NONE if position is None else f"{MM * position.value:.1f}",
                 "unit": "mm",
                 "verdict": verdict(value),
-                "ratio": NONE if value is None else f"{value:.1f} : 1",
+                "ratio": NONE if value is None else f"{value:.1f}\u00a0:\u00a01",
             }
         )
     return facts
