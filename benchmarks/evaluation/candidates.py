@@ -98,6 +98,9 @@ def _class(spec: str) -> Any:
         found = getattr(importlib.import_module(module), name)
     except (ImportError, AttributeError, ValueError) as error:
         raise ConfigError(f"POLICY {spec}: {error}") from None
+    except Exception as error:  # whatever the module itself does when it is imported
+        words = " ".join(f"{type(error).__name__}: {error}".split())
+        raise ConfigError(f"POLICY {spec}: cannot be imported: {words}") from None
     if not callable(found):
         raise ConfigError(
             f"POLICY {spec}: must be a class, or make a policy when it is called with the environment"

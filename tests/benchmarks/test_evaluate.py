@@ -191,6 +191,15 @@ def test_what_cannot_be_judged_is_refused_before_anything_is_driven(asked, said,
     assert re.search(said, str(error)), error
 
 
+def test_a_module_that_fails_when_it_is_imported_is_one_line(tmp_path, monkeypatch):
+    (tmp_path / "fails_on_import.py").write_text("raise RuntimeError('first\\nsecond')\n")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(str(tmp_path))
+
+    with pytest.raises(ConfigError, match=r"POLICY fails_on_import:P: cannot be imported: .*first second$"):
+        candidates(["fails_on_import:P"])
+
+
 def test_an_empty_folder_is_no_training(tmp_path):
     with pytest.raises(ConfigError, match="holds no training"):
         candidates([str(tmp_path)])
