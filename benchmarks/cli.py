@@ -71,5 +71,7 @@ def main() -> None:
 
 
 def _fail(message: str, status: int) -> None:
-    Console(stderr=True, highlight=False, soft_wrap=True).print(f"gt-env: {message}", markup=False)
+    Console(stderr=True, emoji=False, highlight=False, soft_wrap=True).print(
+        f"gt-env: {message}", markup=False
+    )
     sys.exit(status)

@@ -36,7 +36,7 @@ def bench(
     if not no_figures:
         require_report_extra()
     check_writable(out)
-    console = Console()
+    console = Console(emoji=False)
     setup = plan_bench(settings, seed=seed, quick=quick)
     findings = run_bench(setup, console)
     command = bench_command(config, overrides or [], seed, quick=quick)

@@ -61,7 +61,7 @@ def calibrate(
             from benchmarks.report.calibration import write_page
 
             write_page(folder, run, summary["setup"], tables)
-    console = Console()
+    console = Console(emoji=False)
     for table in tables:
         console.print(rich_table(table))
     for name in (CALIBRATION_FILE, *(() if no_figures else ("report.html",))):

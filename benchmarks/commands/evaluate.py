@@ -87,7 +87,7 @@ def evaluate(
         episodes=count,
     )
     check_writable(out)
-    console = Console()
+    console = Console(emoji=False)
     driven = run_evaluation(plan, jobs=jobs, console=console, engine=place)
     words = [
         *policies,

@@ -86,7 +86,9 @@ def _play(session: PlaySession, seed: int, window: Window | None) -> None:
     except KeyboardInterrupt:
         interrupted, ended = True, "gt-env: interrupted: "
     finally:
-        Console(stderr=True, highlight=False, soft_wrap=True).print(ended + session.close(), markup=False)
+        Console(stderr=True, emoji=False, highlight=False, soft_wrap=True).print(
+            ended + session.close(), markup=False
+        )
     if interrupted:
         raise typer.Exit(130)
 

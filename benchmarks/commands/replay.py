@@ -142,7 +142,7 @@ def _print(report: dict[str, Any], out: Path) -> None:
     if errors is not None:
         table.add_row(escape("gt vs true, MAE [mm, mm, deg]"), *_cells(errors["mae"], (1, 1, 2)))
         table.add_row(escape("gt vs true, largest [mm, mm, deg]"), *_cells(errors["max"], (1, 1, 2)))
-    console = Console(highlight=False, soft_wrap=True)
+    console = Console(emoji=False, highlight=False, soft_wrap=True)
     console.print(table)
     line = f"{gt['n']} poses, {100 * gt['valid']:.0f} % valid"
     if errors is not None:

@@ -127,7 +127,7 @@ def score(
         record=out if record else None,
     )
     check_writable(out)
-    console = Console()
+    console = Console(emoji=False)
     result = carry_out(request, jobs=jobs, engine=Engine(name=engine, address=address), console=console)
     setup = request.described(result)
     with staged(out) as folder:

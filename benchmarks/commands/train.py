@@ -68,6 +68,8 @@ def train(
     """Train a policy by what the station sees; Ctrl-C leaves a checkpoint, --resume goes on from it."""
     folder = out or Path("out") / f"{task}_{algo}"
     default = shipped(task, algo)
+    if estimate is not None and estimate not in ESTIMATES:
+        raise ConfigError(f"--estimate {estimate}: must be one of {', '.join(ESTIMATES)}")
     if resume:
         run = _resumed(folder, task, algo, steps)
     else:
@@ -119,7 +121,7 @@ def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
     training_env(run.task, run.config, run.settings).close()  # what is wrong with the set-up is said here
     run.write(folder)
     wall, cpu = clock(), process_time()
-    console = Console(stderr=True)
+    console = Console(stderr=True, emoji=False)
     bar = Progress(
         TextColumn("training {task.fields[name]}"),
         BarColumn(bar_width=None),
@@ -139,7 +141,7 @@ def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
     spent = {"seconds": clock() - wall, "cpu_seconds": process_time() - cpu}
     spent = {key: value + run.setup.get(key, 0.0) for key, value in spent.items()}
     replace(run, setup={**run.setup, **spent}).write(folder)
-    Console().print(
+    Console(emoji=False).print(
         f"{best_policy(folder)}: {done} steps in {clock() - wall:.0f} s; gt-env evaluate {folder} judges it",
         soft_wrap=True,
         highlight=False,

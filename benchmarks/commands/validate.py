@@ -85,7 +85,7 @@ def validate(
     camera_plan = plan_cameras(settings, methods, seed=seed, quick=quick) if cameras else None
     room_plan = plan_rooms(settings, methods, seed=seed, quick=quick) if rooms else None
     watched_arena(settings, methods).close()  # what is wrong with the set-up is said here, not by a worker
-    console = Console()
+    console = Console(emoji=False)
     validation = run_validation(plan, jobs=jobs, console=console, engine=place)
     compared = None
     if camera_plan is not None and validation.failed is None:

@@ -46,6 +46,13 @@ def command(monkeypatch, tmp_path, capsys):
     return run
 
 
+def test_a_message_shows_names_as_they_were_typed(command):
+    status, said = command("score", "nowhere:x:")  # :x: is a cross where emoji are on
+
+    assert status == 1
+    assert "nowhere:x:" in said
+
+
 def test_the_tutorial_runs_as_it_stands(command, tmp_path):
     code = re.search(r"```python\n(.*?)```", TUTORIAL.read_text(), re.S).group(1)
     lines = [line for line in code.splitlines() if line.strip() and not line.startswith(("import", "from"))]

@@ -152,7 +152,7 @@ def test_shipped_hyper_parameters_can_be_read(task):
     [
         (["--task", "fly"], r"--task fly.*reach"),
         (["--algo", "dqn"], r"--algo dqn.*ppo, sac"),
-        (["--estimate", "guess"], r"guess.*surrogate"),
+        (["--estimate", "guess"], r"^--estimate guess.*surrogate"),
         (["--resume"], "holds no training"),
         (["--set", "lrf.beams=0"], r"lrf\.beams"),
         (["--settings", "nowhere.toml"], r"nowhere\.toml"),
