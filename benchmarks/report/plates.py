@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from matplotlib.figure import Figure
+if TYPE_CHECKING:  # what a plate is must be known without the extra that draws it
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True, kw_only=True)

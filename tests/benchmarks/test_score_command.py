@@ -3,6 +3,7 @@
 import json
 import re
 import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -51,6 +52,13 @@ def test_a_message_shows_names_as_they_were_typed(command):
 
     assert status == 1
     assert "nowhere:x:" in said
+
+
+def test_the_command_line_starts_without_plotting_packages():
+    code = "import sys; sys.modules.update(matplotlib=None, jinja2=None); import benchmarks.cli"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+
+    assert done.returncode == 0, done.stderr
 
 
 def test_the_tutorial_runs_as_it_stands(command, tmp_path):
