@@ -19,6 +19,7 @@ from benchmarks.commands.options import (
     SetOption,
     require_report_extra,
 )
+from benchmarks.driving import DRIVES
 from benchmarks.output import check_writable, staged
 from benchmarks.scoring.request import PATHS_SCORED, Request
 from benchmarks.trajectory.alignment import ALIGNMENTS
@@ -42,7 +43,10 @@ def score(
     path: Annotated[
         list[str] | None,
         typer.Option(
-            "--path", metavar="NAME", help=f"What is driven; repeatable ({', '.join(PATHS_SCORED)})."
+            "--path",
+            metavar="NAME",
+            help="What is driven, by its name or a part of it; repeatable "
+            f"({', '.join(PATHS_SCORED)} by default; also {', '.join(DRIVES)}).",
         ),
     ] = None,
     seeds: Annotated[

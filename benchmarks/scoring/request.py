@@ -113,6 +113,8 @@ class Request:
             )
         if (recordings or gt) and paths:
             raise ConfigError(f"--path {paths[0]}: nothing is driven beside --recording or --gt")
+        if (recordings or gt) and record is not None:
+            raise ConfigError("--record: there is nothing to record beside --recording or --gt")
         words = [*subjects, *(f"--trajectory={t}" for t in trajectories), *(f"--path={p}" for p in paths)]
         words += [f"--recording={r}" for r in recordings] + ([f"--gt={gt}"] if gt else [])
         words += [f"--config={config}"] if config else []

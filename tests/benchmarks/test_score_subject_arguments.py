@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 
+from benchmarks.scoring.request import Request
 from benchmarks.scoring.subjects import make_localizer, parse_subject
 from estimators.errors import ConfigError
 from estimators.localizers import RobotCalibration
@@ -68,3 +69,8 @@ def test_a_class_that_wants_something_else_is_refused_by_its_name_and_what_there
     with pytest.raises(ConfigError, match=re.escape("Other: wants gain")) as error:
         parse_subject("own_localizers:Other", folder)
     assert "start, robot, room, seed" in str(error.value)
+
+
+def test_nothing_can_be_recorded_that_is_not_driven(tmp_path):
+    with pytest.raises(ConfigError, match="--record: there is nothing to record"):
+        Request.parsed(subjects=("odometry",), recordings=(tmp_path / "a.mcap",), record=tmp_path)
