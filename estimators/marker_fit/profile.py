@@ -33,6 +33,7 @@ class Profile:
     Attributes:
         columns: (n,) straight columns [px], one apart.
         plain: (n, 3) mean colour of the rows above and below the markers.
+        halves: (2, n, 3) the same of the rows above and of those below, each alone.
         band: (n, 3) mean colour of the rows of the markers.
         plain_row: (n, 3) colour of a single one of these rows above the markers, not averaged.
         band_row: (n, 3) likewise of the rows of the markers.
@@ -43,6 +44,7 @@ class Profile:
 
     columns: Array
     plain: Floats
+    halves: Floats
     band: Floats
     plain_row: NDArray[np.generic]
     band_row: NDArray[np.generic]
@@ -125,7 +127,8 @@ class ProfileReader:
                 return None
         columns = np.arange(first, last + 1) - u
         single = [part[len(part) // 2] for part in parts[:2]]
-        return Profile(columns, 0.5 * (above + below), across, single[0], single[1], n, cover, False)
+        halves = np.stack([above, below])
+        return Profile(columns, halves.mean(axis=0), halves, across, single[0], single[1], n, cover, False)
 
     def _rectify(
         self, rgb: Image, low: float, high: float, middle: float, band: float, plain: tuple[float, float]
@@ -146,7 +149,8 @@ class ProfileReader:
         origin = math.ceil(low)
         n = math.floor(high) - origin + 1
         means, filled = [], np.ones(n, bool)
-        for chosen in (off <= max(band, 0.5), (off >= plain[0]) & (off <= plain[1])):
+        plain_rows = (off >= plain[0]) & (off <= plain[1])
+        for chosen in (off <= max(band, 0.5), plain_rows & (b < middle), plain_rows & (b > middle)):
             place, colors = a[chosen] - origin, pixels[chosen].astype(float)
             cell = np.floor(place).astype(int)
             inside = (cell >= 0) & (cell < n - 1)
@@ -162,8 +166,9 @@ class ProfileReader:
         keep = slice(int(first), int(last) + 1)
         columns = origin + np.arange(n)[keep].astype(float)
         rows = max(1, round(2 * band))
-        band_mean, plain_mean = means[0][keep], means[1][keep]
-        return Profile(columns, plain_mean, band_mean, plain_mean, band_mean, rows, 1.0, True)
+        band_mean, halves = means[0][keep], np.stack([half[keep] for half in means[1:]])
+        plain_mean = halves.mean(axis=0)
+        return Profile(columns, plain_mean, halves, band_mean, plain_mean, band_mean, rows, 1.0, True)
 
 
 def _mean_row(part: Image) -> Floats:

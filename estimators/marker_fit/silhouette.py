@@ -46,7 +46,8 @@ def find_silhouette(profile: Profile, expected: float) -> Silhouette | None:
 
     Light of any colour makes white target a ray in colour space, on which shading only moves it up and down:
     what lies off that ray is something else. A pixel that the edge cuts lies between, and how far between is
-    how much of it the target covers.
+    how much of it the target covers. Above and below the markers are looked at apart: a blue wall over a brown
+    floor is grey in the mean.
 
     Returns:
         None if what is there is not white, is cut off by the image, or looks like what is behind it.
@@ -54,14 +55,15 @@ def find_silhouette(profile: Profile, expected: float) -> Silhouette | None:
     plain = profile.plain
     n = len(plain)
     start = min(max(round(expected - float(profile.columns[0])), 2), n - 3)
-    light = np.median(plain[start - 2 : start + 3], axis=0).astype(float)
+    lights = np.median(profile.halves[:, start - 2 : start + 3], axis=1)
+    light = lights.mean(axis=0)
     brightest = float(light.max())
     if brightest < DARKEST or brightest - float(light.min()) > MOST_COLORFUL * brightest:
         return None
-    unit = light / math.sqrt(float(light @ light))
-    along = plain @ unit.astype(np.float32)
-    square = np.einsum("ij,ij->i", plain, plain) - along * along
-    other = square > (COLORFUL * along) ** 2
+    units = lights / np.sqrt(np.einsum("hj,hj->h", lights, lights)).clip(min=1.0)[:, None]
+    along = np.einsum("hij,hj->hi", profile.halves, units)
+    square = np.einsum("hij,hij->hi", profile.halves, profile.halves) - along * along
+    other = (square > (COLORFUL * along) ** 2).any(axis=0)
     left = np.flatnonzero(other[:start][::-1])
     right = np.flatnonzero(other[start:])
     if other[start] or not left.size or not right.size:

@@ -55,6 +55,14 @@ def test_grey_walls_of_the_target_s_own_brightness(calibration):
     assert measured(calibration, pictures.frame(calibration, POSE, wall=(235, 235, 235))) is None
 
 
+@pytest.mark.parametrize("y", [0.65, 0.75, 0.85])
+def test_a_background_that_is_grey_only_in_the_mean_hides_nothing(calibration, y):
+    pose = (0.0, y, 0.4)  # so near that wall and floor show above and below: blue and brown make grey
+    seen = measured(calibration, pictures.frame(calibration, pose, wall=pictures.SKY), position=pose[:2])
+    assert seen is not None
+    assert seen.yaw == pytest.approx(pose[2], abs=math.radians(1.0))
+
+
 def test_no_markers(calibration):
     colors = [(255, 255, 255)] * 6
     assert measured(calibration, pictures.frame(calibration, POSE, colors=colors)) is None
