@@ -47,7 +47,8 @@ class ReachEnv(TaskEnv):
 
     ## Start
     Goal and start pose uniform over the room, `task.margin` (0.40 m) off walls and obstacles,
-    `task.station_margin` (0.60 m) off the LRF and at least `task.min_distance` (0.50 m) apart; any yaw.
+    `task.station_margin` off LRF and camera (0.75 m in the preset: nearer, the pan unit cannot follow the robot at full
+    speed) and at least `task.min_distance` (0.50 m) apart; any yaw.
     `reset(options={"pose": (x, y, yaw), "goal": (x, y)})` sets them. With `task.randomize` the room, its
     obstacles, noise, light and friction are drawn before.
 
@@ -103,7 +104,7 @@ class FollowPathEnv(TaskEnv):
 
     ## Start
     A figure of eight, an ellipse or a wave of random size and place, with bends of at least 0.25 m,
-    `task.margin` off walls and obstacles and `task.station_margin` off the LRF; or `task.path`. The robot
+    `task.margin` off walls and obstacles and `task.station_margin` off the station; or `task.path`. The robot
     starts at most 0.05 m beside the path's start, at most 20 deg turned away from it, or at
     `reset(options={"pose": (x, y, yaw)})`.
 

@@ -13,14 +13,23 @@ from estimators.poses import Array, Pose2
 from estimators.room import Room
 from gt_env.config import EnvConfig
 from gt_env.config.schema import pose_problem
+from gt_env.tasks.sight import sight_radius
 
 TRIES: Final = 1000
 
 
 def is_free(point: Array, config: EnvConfig, room: Room) -> bool:
     """Whether a sampled point (2,) may lie here: off the walls, the obstacles and the station."""
-    task = config.task
-    return math.hypot(*point) >= task.station_margin and room.clearance(point) >= task.margin
+    return room.clearance(point) >= config.task.margin and _is_off_station(point, config)
+
+
+def _is_off_station(point: Array, config: EnvConfig) -> bool:
+    """Whether a point (2,) is far enough from LRF and camera for the station to see a robot there."""
+    margin = config.task.station_margin
+    if margin is None:
+        margin = sight_radius(config)
+    x, y = float(point[0]), float(point[1])
+    return all(math.hypot(x - p[0], y - p[1]) >= margin for p in ((0.0, 0.0), config.camera.position))
 
 
 def sample_point(
@@ -39,9 +48,12 @@ def sample_point(
         point = rng.uniform(low, high)
         if accept(point) and is_free(point, config, room):
             return point
+    off = config.task.station_margin
+    off = sight_radius(config) if off is None else off
     raise ConfigError(
-        f"task.margin = {config.task.margin}, task.min_distance = {config.task.min_distance}: no free place "
-        f"found in the room in {TRIES} tries; smaller ones are allowed"
+        f"task.margin = {config.task.margin}, task.station_margin = {off:.4g}, "
+        f"task.min_distance = {config.task.min_distance}: no free place found in the room in {TRIES} tries; "
+        f"smaller ones are allowed"
     )
 
 

@@ -10,6 +10,7 @@ from gt_env.tasks.follow_path import FollowPath, PathReferee
 from gt_env.tasks.paths import SMALLEST_RADIUS, Path, sample_path
 from gt_env.tasks.patrol import Patrol
 from gt_env.tasks.reach import Reach
+from gt_env.tasks.sight import sight_radius
 from gt_env.tasks.task import Moment
 
 CONFIG = load_config(default="tasks")
@@ -42,7 +43,8 @@ def test_what_is_drawn_lies_free_and_depends_on_the_seed_alone(task_type):
         assert (task.goal == again.goal).all()
         for point in task.goal[::4]:
             assert ROOM.clearance(point) >= CONFIG.task.margin - 1e-9
-            assert np.hypot(*point) >= CONFIG.task.station_margin - 1e-9
+            assert np.hypot(*point) >= sight_radius(CONFIG) - 1e-9
+            assert np.hypot(*(point - CONFIG.camera.position[:2])) >= sight_radius(CONFIG) - 1e-9
         assert task.space(ROOM).contains(task.observe())
     assert len(set(starts)) == 30
 

@@ -62,7 +62,8 @@ class TaskConfig:
     Attributes:
         goal_radius: How near to a goal, way-point or path's end is near enough [m].
         margin: Of sampled starts, goals and paths to walls and obstacles [m].
-        station_margin: Of the same to the LRF [m]: nearer, the pan unit cannot follow.
+        station_margin: Of the same to the station's LRF and camera [m]; None for as far as it takes the camera to see
+            the whole target and the pan unit to follow the robot at full speed.
         min_distance: Between a sampled start and its goal, or two way-points [m].
         time_limit: After which an episode is cut off [s]; None for the task's own.
         linger: How long an episode goes on after a success that would end it [s]: an evaluation lets the station
@@ -77,7 +78,7 @@ class TaskConfig:
 
     goal_radius: Positive = 0.10
     margin: Positive = 0.40
-    station_margin: NotNegative = 0.60
+    station_margin: NotNegative | None = None
     min_distance: Positive = 0.50
     time_limit: Positive | None = None
     linger: NotNegative = 0.0
