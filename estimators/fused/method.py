@@ -98,7 +98,7 @@ class FusedEstimator:
         self._track: Track | None = None
         self._lost: PoseEstimate | None = None  # the last estimate before the target was lost
         self._fix: PositionReading | None = None  # the last one that was believed
-        self._seen: MarkerReading | None = None  # the last frame's
+        self._view: MarkerReading | None = None  # the first that showed the side that is seen now
         self._fix_stamp = self._yaw_stamp = -math.inf  # of what was accepted last
         self._missed = self._refused = 0
         self._known: deque[tuple[type, str, float]] = deque(maxlen=REMEMBERED)
@@ -200,11 +200,11 @@ class FusedEstimator:
 
     def _marker_reading(self, seen: MarkerMeasurement, yaw: float) -> MarkerReading:
         """A frame as the filter takes it; `yaw` is the target's, as known before [rad]."""
-        side, before = yaw - seen.bearing, self._seen
-        if before is not None:
-            seen = seen.steadied(before.seen, math.remainder(side - before.side, 2 * math.pi))
-        self._seen = MarkerReading(seen, self._mount, side)
-        return self._seen
+        reading = MarkerReading(seen, self._mount, yaw - seen.bearing)
+        if self._view is None or not reading.shows_side_of(self._view):
+            self._view = reading
+            return reading
+        return replace(reading, seen=seen.steadied(self._view.seen))
 
     def _target(self, track: Track, stamp: float) -> tuple[Array, Array, float | None]:
         """Expected position of the target (2,), its covariance (2, 2), and the target's yaw if known [rad]."""

@@ -23,6 +23,9 @@ MOST_ASIDE: Final = 0.8
 SHAPE_TURN: Final = 0.2
 """Turn of the target over which errors of its shape are replaced by others [rad]: a fifth of the angle between
 markers, which are what the camera compares."""
+SAME_SIDE: Final = 0.02
+"""How far the target turns [rad], or how much nearer it comes, as a share of the distance, until frames begin anew to
+say how bearing and yaw follow the distance. Geometry changes that by some tenths of itself over a radian."""
 ALONG_SHARE: Final = 0.2
 """Share of a scan fix's deviation along the line of sight that stays as long as the same beams meet the target."""
 ACROSS_BEAMS: Final = 0.15
@@ -222,6 +225,11 @@ class MarkerReading:
         image, limbs = seen.repeats(earlier), seen.repeats_limbs(earlier)
         shape = math.exp(-abs(math.remainder(self.side - before.side, 2 * math.pi)) / SHAPE_TURN)
         return np.tile([image, image, limbs, shape, shape], (len(velocities), 1))
+
+    def shows_side_of(self, before: MarkerReading) -> bool:
+        """Whether the target shows the same side as in a frame before, from as far away."""
+        turned = abs(math.remainder(self.side - before.side, 2 * math.pi))
+        return max(turned, abs(self.seen.distance / before.seen.distance - 1)) < SAME_SIDE
 
     def first_pose(self, target: Array) -> Pose2:
         """Pose of the base if the target is at a position (2,) [m] and looks as it does."""

@@ -13,11 +13,6 @@ SAME_PIXELS = 0.5
 """How far the view moves until its pixels say something else [px]: with several edges in the picture some edge passes
 a pixel's middle well before that."""
 
-STEADY = 0.9
-"""Weight of what was before in the sensitivity and the lean of a view that stays."""
-SAME_SIDE = 0.02
-"""How far the target turns until it has others [rad]."""
-
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class MarkerMeasurement:
@@ -107,20 +102,14 @@ class MarkerMeasurement:
         """The same for the limbs alone, which do not mind that the target turns."""
         return max(0.0, 1.0 - abs(float(self.view[0] - earlier.view[0])) / SAME_PIXELS)
 
-    def steadied(self, earlier: MarkerMeasurement, turned: float) -> MarkerMeasurement:
-        """The same with a sensitivity and a lean that follow an earlier frame's while the target shows the same side.
+    def steadied(self, earlier: MarkerMeasurement) -> MarkerMeasurement:
+        """The same with the sensitivity and the lean of an earlier frame of the same view.
 
-        Which pixels the edges fall on moves both, and the yaw with them. Frames of one pose that differed in them
-        would seem to say at which distance, or for which shape, they agree. That the camera has turned is no reason
-        to begin anew.
+        Which pixels the edges fall on, and which of them noise lets count, move both, and the yaw with them. To a
+        filter, frames of one pose that differed in them would say at which distance they agree: noise would pass for
+        a range.
 
         Args:
-            earlier: A frame before.
-            turned: How far the side that the target shows has turned since, as far as is known [rad].
+            earlier: A frame before, in which the target showed the same side.
         """
-        share = STEADY * max(self.repeats(earlier), 1.0 - abs(turned) / SAME_SIDE, 0.0)
-        return replace(
-            self,
-            sensitivity=self.sensitivity + share * (earlier.sensitivity - self.sensitivity),
-            lean=self.lean + share * (earlier.lean - self.lean),
-        )
+        return replace(self, sensitivity=earlier.sensitivity, lean=earlier.lean)

@@ -121,15 +121,17 @@ def test_an_innovation_is_wrapped(measurement):
     np.testing.assert_allclose(residual, 0, atol=1e-12)
 
 
-def test_a_view_stays_steady_however_the_camera_turns_until_the_target_does(measurement):
+def test_frames_follow_the_distance_alike_until_the_target_turns_or_comes_nearer(measurement):
     other = dataclasses.replace(
         measurement, view=np.array([3.3, 0.4]), sensitivity=np.array([0.0, 0.5]), lean=9.0
     )
-    kept = other.steadied(measurement, 0.0)
-    np.testing.assert_allclose(kept.sensitivity, 0.9 * measurement.sensitivity + 0.1 * other.sensitivity)
-    assert kept.lean == pytest.approx(0.9 * 5.0 + 0.1 * 9.0)
-    turned = other.steadied(measurement, 0.1)
-    assert (turned.lean, turned.sensitivity.tolist()) == (9.0, [0.0, 0.5])
+    kept = other.steadied(measurement)
+    assert (kept.lean, kept.sensitivity.tolist()) == (5.0, measurement.sensitivity.tolist())
+    first = MarkerReading(measurement, Pose2(), 0.5)
+    assert MarkerReading(other, Pose2(), 0.5 - 2 * math.pi + 0.01).shows_side_of(first)
+    assert not MarkerReading(other, Pose2(), 0.55).shows_side_of(first)
+    nearer = dataclasses.replace(other, distance=0.95 * measurement.distance)
+    assert not MarkerReading(nearer, Pose2(), 0.5).shows_side_of(first)
 
 
 def test_errors_of_the_shape_last_while_the_target_shows_the_same_side(measurement):
