@@ -21,7 +21,9 @@ from benchmarks.commands.options import (
 )
 from benchmarks.driving import DRIVES
 from benchmarks.output import check_writable, staged
-from benchmarks.scoring.request import PATHS_SCORED, Request
+from benchmarks.paths import PATHS
+from benchmarks.scoring.live import PATHS_SCORED
+from benchmarks.scoring.request import Request
 from benchmarks.trajectory.alignment import ALIGNMENTS
 from benchmarks.trajectory.association import MAX_GAP
 
@@ -34,6 +36,7 @@ SubjectsArgument = Annotated[
     ),
 ]
 
+OTHER_PATHS = [name for name in (*PATHS, *DRIVES) if name not in PATHS_SCORED]
 SHOWN_TABLES = 4
 """In the terminal: position, yaw, verdicts and how the localizers fared; the page has all."""
 
@@ -46,7 +49,7 @@ def score(
             "--path",
             metavar="NAME",
             help="What is driven, by its name or a part of it; repeatable "
-            f"({', '.join(PATHS_SCORED)} by default; also {', '.join(DRIVES)}).",
+            f"({', '.join(PATHS_SCORED)} by default; also {', '.join(OTHER_PATHS)}).",
         ),
     ] = None,
     seeds: Annotated[
@@ -107,7 +110,7 @@ def score(
     """Score localizers against the ground truth, and say where the reference is not good enough."""
     from benchmarks.engines import Engine
     from benchmarks.report.terminal import rich_table
-    from benchmarks.scoring.request import carry_out
+    from benchmarks.scoring.carry_out import carry_out
     from benchmarks.scoring.write import write_page
 
     if not no_figures:

@@ -9,7 +9,7 @@ import numpy as np
 
 from benchmarks.driving import ideal_poses, script, start_pose
 from benchmarks.experiments.course import Course
-from benchmarks.experiments.moving import EIGHT
+from benchmarks.experiments.moving import EIGHT_PATH
 from benchmarks.paths import timed_poses
 from estimators.poses import Array
 from gt_env.config import EnvConfig, load_config
@@ -80,7 +80,7 @@ def _drives(config: EnvConfig) -> list[Array]:
     scripted = [
         ideal_poses(start_pose(name, config), script(name, config), config, step) for name in ("path", "tour")
     ]
-    return [*scripted, timed_poses(EIGHT, config, duration=SECONDS)]
+    return [*scripted, timed_poses(EIGHT_PATH, config, duration=SECONDS)]
 
 
 def _able(config: EnvConfig, speed: float) -> EnvConfig:

@@ -17,6 +17,8 @@ from estimators.poses import Array
 
 TRUTH_GAP = 0.1
 """True poses farther apart than this are not interpolated [s]: the recording was paused there."""
+TRUE_START = "the true pose"
+"""Where localizers start whenever that is known."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -69,6 +71,7 @@ class JudgedRun:
         references: By name.
         truth: Where it is known.
         reference_errors: By reference, likewise.
+        start: Where localizers were told that they start, in words; "" if none was told.
     """
 
     name: str
@@ -78,6 +81,7 @@ class JudgedRun:
     references: Mapping[str, Trajectory] = field(default_factory=dict)
     truth: Trajectory | None = None
     reference_errors: Mapping[str, ReferenceErrors] = field(default_factory=dict)
+    start: str = ""
 
     def without_series(self) -> JudgedRun:
         """The same for the numbers alone."""
@@ -93,6 +97,7 @@ def judge(
     references: Mapping[str, Trajectory],
     truth: Array,
     rules: Rules,
+    start: str = "",
 ) -> JudgedRun:
     """Judge one run.
 
@@ -104,6 +109,7 @@ def judge(
         references: By reference.
         truth: (N, 4) t [s], x, y [m], yaw [rad]; (0, 4) where it is not known.
         rules: How.
+        start: Where localizers were told that they start, in words.
 
     Raises:
         TrajectoryError: If an alignment is asked for that a run does not determine.
@@ -128,6 +134,7 @@ def judge(
         references=references,
         truth=true,
         reference_errors=erred,
+        start=start,
     )
 
 

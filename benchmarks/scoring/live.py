@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import gymnasium as gym
 import numpy as np
@@ -14,12 +14,15 @@ from benchmarks.following import Follower, check_followed
 from benchmarks.paths import CALM_SPEED, LONG_DRIVE, PATHS, timed_poses
 from benchmarks.recording.writer import RecordingWriter
 from benchmarks.rollout import ARENA
-from benchmarks.scoring.judge import JudgedRun, Rules, judge
+from benchmarks.scoring.judge import TRUE_START, JudgedRun, Rules, judge
 from benchmarks.scoring.subjects import Subject, make_localizer
 from benchmarks.scoring.watch import Watch
 from estimators.errors import ConfigError
 from estimators.poses import Array, Pose2
 from gt_env.config import EnvConfig
+
+PATHS_SCORED: Final = ("figure-of-eight", "rounded-rectangle", "far")
+"""What is driven if nothing else is asked for."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -66,7 +69,7 @@ class LiveRun:
 
 
 def path_named(text: str) -> str:
-    """A path or drive by its name or a part of it that no other path has.
+    """A path or drive by its name or a part of it that no other of `PATHS_SCORED` has, or else no other at all.
 
     Raises:
         ConfigError: If there is none, or more than one.
@@ -75,6 +78,8 @@ def path_named(text: str) -> str:
     if text in known:
         return text
     found = [name for name in known if text and text in name]
+    usual = [name for name in found if name in PATHS_SCORED]
+    found = usual if len(usual) == 1 else found
     if len(found) != 1:
         raise ConfigError(f"--path {text}: must be one of {', '.join(known)}")
     return found[0]
@@ -118,6 +123,7 @@ def score_live(run: LiveRun, on_step: Callable[[], None] | None = None) -> Judge
         watch.references(),
         np.concatenate(truth),
         run.rules,
+        TRUE_START,
     )
     return judged if run.series else judged.without_series()
 

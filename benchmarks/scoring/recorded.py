@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from benchmarks.recording.recording import Recording
-from benchmarks.scoring.judge import JudgedRun, Rules, judge
+from benchmarks.scoring.judge import TRUE_START, JudgedRun, Rules, judge
 from benchmarks.scoring.subjects import Subject, make_localizer
 from benchmarks.scoring.watch import STATION, Answers, Watch
 from benchmarks.trajectory.csv_file import read_trajectory
 from benchmarks.trajectory.trajectory import Trajectory, TrajectoryError
+from estimators.calibration import DEG, Calibration
 from estimators.errors import RecordingError
+from estimators.fused import FusedEstimator
 from estimators.messages import Message
 from estimators.poses import Array, Pose2
 from gt_env.config import EnvConfig
@@ -30,8 +33,8 @@ def score_recording(
 ) -> JudgedRun:
     """Let station and localizers listen to a recording, read trajectory files beside it, and judge.
 
-    A localizer of this project starts at the first true pose where that was recorded; else it must find out for
-    itself where it is.
+    Localizers start at the first true pose where that was recorded; else at the station's first pose with a yaw, and
+    hear nothing of what was before.
 
     Args:
         recording: With messages of the station, and of the robot for those that listen.
@@ -42,7 +45,8 @@ def score_recording(
         number: Of the run among all.
 
     Raises:
-        RecordingError: If messages are missing that a subject needs, or a file cannot be read.
+        RecordingError: If messages are missing that a subject needs, the station never says where the robot is, or a
+            file cannot be read.
         TrajectoryError: If a file and the recording have no time in common.
     """
     if not recording.messages.of_source(STATION):
@@ -54,11 +58,11 @@ def score_recording(
             f"{recording.origin}: holds no message of the robot ({ROBOT}...), which {listening[0].name} needs: "
             "give trajectory files as NAME=FILE"
         )
-    start = Pose2.of(recording.truth[0, 1:]) if len(recording.truth) else None
-    robot = robot_calibration(believed)
+    robot, station = robot_calibration(believed), believed.calibration()
     room = believed.room.in_station_frame(believed.onboard.lidar.height)
+    start, since, told = _start(recording, station) if listening else (None, 0.0, "")
     watch = Watch(
-        believed.calibration(), {s.name: make_localizer(s, robot, room, start, rules.seed) for s in listening}
+        station, {s.name: make_localizer(s, robot, room, start, rules.seed) for s in listening}, since
     )
     for message in watched(recording.messages):
         watch.take((message,), recording.truth)
@@ -71,9 +75,28 @@ def score_recording(
         watch.references(),
         recording.truth,
         rules,
+        told,
     )
     _refuse_strangers(judged, files)
     return judged
+
+
+def _start(recording: Recording, calibration: Calibration) -> tuple[Pose2, float, str]:
+    """Where localizers start, from when on they listen [s], and both in words."""
+    if len(recording.truth):
+        return Pose2.of(recording.truth[0, 1:]), -math.inf, TRUE_START
+    station = FusedEstimator(calibration)
+    for message in recording.messages.of_source(STATION):
+        fix = station.update(message)
+        if fix is not None and fix.valid and fix.yaw_valid:
+            x, y, yaw = fix.pose
+            words = (
+                f"the station's first pose, at {fix.stamp:.2f} s: {x:.3f} m, {y:.3f} m, {yaw / DEG:.1f} deg"
+            )
+            return fix.pose, fix.stamp, words
+    raise RecordingError(
+        f"{recording.origin}: the station never says where the robot is and which way it looks"
+    )
 
 
 def score_files(

@@ -1,34 +1,25 @@
-"""What is asked for on the command line, checked, and carried out."""
+"""What is asked for on the command line, checked."""
 
 from __future__ import annotations
 
 import shlex
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-from rich.console import Console
 
-from benchmarks.engines import Engine
-from benchmarks.parallel import run_side_by_side
-from benchmarks.progress import tracked
 from benchmarks.report.setup import versions
-from benchmarks.scoring.judge import JudgedRun, Rules
-from benchmarks.scoring.live import LiveRun, path_named, score_live
-from benchmarks.scoring.recorded import score_files, score_recording
-from benchmarks.scoring.subjects import Subject, parse_subject
+from benchmarks.scoring.judge import Rules
+from benchmarks.scoring.live import PATHS_SCORED, LiveRun, path_named
+from benchmarks.scoring.subjects import Subject, all_subjects
+from benchmarks.scoring.summary import run_name
 from benchmarks.scoring.write import Result
 from benchmarks.trajectory.alignment import ALIGNMENTS, TITLES
-from benchmarks.trajectory.csv_file import read_trajectory
 from estimators.errors import ConfigError
-from estimators.localizers import LOCALIZERS
 from estimators.room import Room
 from gt_env.config import EnvConfig, load_config, parse_override
 
-PATHS_SCORED: Final = ("figure-of-eight", "rounded-rectangle", "far")
-"""What is driven if nothing else is asked for."""
 CONFIG: Final = "onboard"
 LIVE_REFERENCES: Final = ("fused", "smooth")
 SEEDS, QUICK_SEEDS = 3, 1
@@ -100,7 +91,7 @@ class Request:
             raise ConfigError(f"--reference {reference}: must be one of {', '.join(LIVE_REFERENCES)}")
         if align not in ALIGNMENTS:
             raise ConfigError(f"--align {align}: must be one of {', '.join(ALIGNMENTS)}")
-        found = _subjects(subjects, trajectories, with_default=not trajectories and gt is None)
+        found = all_subjects(subjects, trajectories, Path.cwd(), default=not trajectories and gt is None)
         files = [s for s in found if s.kind == "file"]
         if gt is not None and recordings:
             raise ConfigError("--gt and --recording: give one of them")
@@ -196,6 +187,7 @@ class Request:
             "seed": self.seed,
             "runs": [run.name if run.seed is None else f"{run.name} {run.seed}" for run in result.runs],
             "reference": self.reference,
+            "starts": {run_name(run): run.start for run in result.runs},
             "align": self.rules.align,
             "alignment": TITLES[self.rules.align],
             "duration": self.duration if self.live else None,
@@ -204,78 +196,6 @@ class Request:
             "versions": versions(),
             "config": config.as_dict(),
         }
-
-
-def carry_out(request: Request, *, jobs: int, engine: Engine, console: Console) -> Result:
-    """Simulate, replay or read, and judge.
-
-    Raises:
-        ConfigError: If the set-up cannot be.
-        RecordingError: If a file cannot be read.
-        SweepError: If a run failed.
-        TrajectoryError: If an alignment is not determined, or a file has no time in common with the station's.
-    """
-    runs: list[JudgedRun]
-    if request.gt is not None:
-        reference = read_trajectory(request.gt)
-        files = {s.name: read_trajectory(s.target) for s in request.subjects}
-        runs = [score_files(reference, files, np.empty((0, 4)), request.rules, request.gt.stem)]
-    elif request.recordings:
-        runs = _recorded(request, console)
-    else:
-        tasks = request.live_runs()
-        plans = [task.plan() for task in tasks]  # what does not fit is said here, not by a worker
-        runs = run_side_by_side(
-            score_live,
-            tasks,
-            [len(poses) - 1 for poses in plans],
-            jobs=jobs,
-            label="driving",
-            console=console,
-            names=[f"{task.path}, run {task.number}" for task in tasks],
-            engine=engine,
-        )
-    return Result.of(runs, request.rules, request.reference)
-
-
-def _recorded(request: Request, console: Console) -> list[JudgedRun]:
-    from benchmarks.recording.sources import LawOptions, open_source
-
-    runs = []
-    for number, path in enumerate(request.recordings):
-        recording, _ = open_source(path, LawOptions(), request.config, dict(request.overrides))
-        runs.append(
-            score_recording(
-                recording,
-                request.believed(recording.config),
-                request.subjects,
-                request.rules,
-                lambda items: tracked(items, "listening"),
-                number,
-            )
-        )
-    return runs
-
-
-def _subjects(
-    subjects: Sequence[str], trajectories: Sequence[str], with_default: bool
-) -> tuple[Subject, ...]:
-    folder = Path.cwd()
-    found = [parse_subject(text, folder) for text in subjects]
-    for text in trajectories:
-        name, equals, file = text.partition("=")
-        if not (name and equals and file):
-            raise ConfigError(f"--trajectory {text}: must be NAME=FILE")
-        found.append(Subject(name=name, kind="file", target=file))
-    if not found and with_default:
-        found = [parse_subject(name, folder) for name in LOCALIZERS]
-    names = [s.name for s in found]
-    twice = sorted({name for name in names if names.count(name) > 1})
-    if twice:
-        raise ConfigError(f"SUBJECT {twice[0]}: is there twice: give one another name, as NAME={twice[0]}")
-    if not found:
-        raise ConfigError("--gt: needs trajectory files as NAME=FILE to compare with it")
-    return tuple(found)
 
 
 def _lead(result: Result, live: bool) -> str:

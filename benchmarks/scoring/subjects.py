@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import inspect
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, Literal
@@ -95,6 +95,37 @@ def parse_subject(text: str, folder: Path) -> Subject:
     if equals:
         return Subject(name=name, kind="file", target=target)
     raise ConfigError(f"SUBJECT {text!r}: must be {_allowed()}")
+
+
+def all_subjects(
+    texts: Sequence[str], trajectories: Sequence[str], folder: Path, default: bool
+) -> tuple[Subject, ...]:
+    """Everybody who is to be scored.
+
+    Args:
+        texts: See `parse_subject`.
+        trajectories: As NAME=FILE.
+        folder: Where imports are looked for first.
+        default: Whether to take all localizers of this project if nobody is named.
+
+    Raises:
+        ConfigError: If one cannot be, a name is there twice, or there is nobody.
+    """
+    found = [parse_subject(text, folder) for text in texts]
+    for text in trajectories:
+        name, equals, file = text.partition("=")
+        if not (name and equals and file):
+            raise ConfigError(f"--trajectory {text}: must be NAME=FILE")
+        found.append(Subject(name=name, kind="file", target=file))
+    if not found and default:
+        found = [parse_subject(name, folder) for name in LOCALIZERS]
+    names = [s.name for s in found]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise ConfigError(f"SUBJECT {twice[0]}: is there twice: give one another name, as NAME={twice[0]}")
+    if not found:
+        raise ConfigError("--gt: needs trajectory files as NAME=FILE to compare with it")
+    return tuple(found)
 
 
 def make_localizer(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Final
@@ -82,9 +83,13 @@ class Watch:
     Args:
         calibration: What the station believes.
         localizers: Guarded, by name; they are reset here.
+        since: From when on they listen [s].
     """
 
-    def __init__(self, calibration: Calibration, localizers: dict[str, Guarded]) -> None:
+    def __init__(
+        self, calibration: Calibration, localizers: dict[str, Guarded], since: float = -math.inf
+    ) -> None:
+        self._since = since
         self._station = FusedEstimator(calibration, keep=True)
         self._online: list[PoseEstimate] = []
         self._localizers = localizers
@@ -107,6 +112,8 @@ class Watch:
                 estimate = self._station.update(message)
                 if estimate is not None:
                     self._online.append(estimate)
+                continue
+            if message.stamp < self._since:
                 continue
             for name, guarded in self._localizers.items():
                 if isinstance(guarded.localizer, Witness):

@@ -44,9 +44,9 @@ def planted(preset):
 def record(path, config, seed, duration):
     """Drive along the figure of eight and write down everything."""
     env = gym.make("gt_env:gt_env/Arena-v0", config=config, disable_env_checker=True)
-    commands = actions(path_script("figure-of-eight", config, duration=duration), config, config.timing.step)
+    commands = actions(path_script("wide-eight", config, duration=duration), config, config.timing.step)
     with RecordingWriter(path, config) as writer:
-        env.reset(seed=seed, options={"pose": tuple(path_start("figure-of-eight", config))})
+        env.reset(seed=seed, options={"pose": tuple(path_start("wide-eight", config))})
         for command in [None, *commands]:
             if command is not None:
                 env.step(command)

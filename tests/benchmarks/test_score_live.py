@@ -2,6 +2,7 @@ import importlib
 import itertools
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 pytest.importorskip("pybullet")
 
 from benchmarks.recording import read_recording
+from benchmarks.recording.recording import MessageLog
 from benchmarks.scoring.judge import Rules
 from benchmarks.scoring.live import LiveRun, path_named, score_live
 from benchmarks.scoring.recorded import score_recording
@@ -18,7 +20,7 @@ from benchmarks.scoring.write import Result
 from benchmarks.trajectory.csv_file import write_csv
 from benchmarks.trajectory.trajectory import TrajectoryError
 from benchmarks.trajectory.tum import write_tum
-from estimators.errors import ConfigError
+from estimators.errors import ConfigError, RecordingError
 from gt_env.config import load_config
 
 HERE = Path(__file__).parent
@@ -137,6 +139,27 @@ def test_live_recording_and_trajectory_files_agree(recorded):
                 )
 
 
+def test_without_the_truth_localizers_start_where_the_station_first_sees_them(recorded):
+    _, folder, _ = recorded
+    recording = read_recording(folder / "run.mcap")
+    blind = replace(recording, truth=np.empty((0, 4)))
+    judged = score_recording(blind, recording.config, subjects("odometry", "mcl"), Rules())
+    assert judged.start.startswith("the station's first pose, at 0.00 s: ")
+    station, odometry = judged.references["fused"], judged.answers["odometry"].trajectory
+    first = int(np.argmax(station.valid & station.yaw_valid))
+    assert odometry.stamps[0] == pytest.approx(station.stamps[first], abs=0.05)
+    assert odometry.poses[0] == pytest.approx(station.poses[first], abs=1e-9)
+    assert (
+        "the true pose" in score_recording(recording, recording.config, subjects("odometry"), Rules()).start
+    )
+
+    unseen = [m for m in recording.messages if m.source != "station/lrf"]
+    with pytest.raises(RecordingError, match="never says where the robot is"):
+        score_recording(
+            replace(blind, messages=MessageLog(unseen)), recording.config, subjects("odometry"), Rules()
+        )
+
+
 def test_files_of_another_time_are_refused(recorded):
     run, folder, _ = recorded
     recording = read_recording(folder / "run.mcap")
@@ -189,7 +212,8 @@ def test_subjects_that_do_not_exist_are_refused():
 
 def test_a_path_may_be_called_by_a_part_of_its_name():
     assert path_named("eight") == "figure-of-eight"
+    assert path_named("wide") == "wide-eight"
     assert path_named("path") == "path"
-    for text in ("a", "nowhere", ""):
+    for text in ("p", "nowhere", ""):
         with pytest.raises(ConfigError, match="--path"):
             path_named(text)

@@ -1,0 +1,67 @@
+"""A score that was asked for, carried out."""
+
+from __future__ import annotations
+
+import numpy as np
+from rich.console import Console
+
+from benchmarks.engines import Engine
+from benchmarks.parallel import run_side_by_side
+from benchmarks.progress import tracked
+from benchmarks.scoring.judge import JudgedRun
+from benchmarks.scoring.live import score_live
+from benchmarks.scoring.recorded import score_files, score_recording
+from benchmarks.scoring.request import Request
+from benchmarks.scoring.write import Result
+from benchmarks.trajectory.csv_file import read_trajectory
+
+
+def carry_out(request: Request, *, jobs: int, engine: Engine, console: Console) -> Result:
+    """Simulate, replay or read, and judge.
+
+    Raises:
+        ConfigError: If the set-up cannot be.
+        RecordingError: If a file cannot be read.
+        SweepError: If a run failed.
+        TrajectoryError: If an alignment is not determined, or a file has no time in common with the station's.
+    """
+    runs: list[JudgedRun]
+    if request.gt is not None:
+        reference = read_trajectory(request.gt)
+        files = {s.name: read_trajectory(s.target) for s in request.subjects}
+        runs = [score_files(reference, files, np.empty((0, 4)), request.rules, request.gt.stem)]
+    elif request.recordings:
+        runs = _recorded(request, console)
+    else:
+        tasks = request.live_runs()
+        plans = [task.plan() for task in tasks]  # what does not fit is said here, not by a worker
+        runs = run_side_by_side(
+            score_live,
+            tasks,
+            [len(poses) - 1 for poses in plans],
+            jobs=jobs,
+            label="driving",
+            console=console,
+            names=[f"{task.path}, run {task.number}" for task in tasks],
+            engine=engine,
+        )
+    return Result.of(runs, request.rules, request.reference)
+
+
+def _recorded(request: Request, console: Console) -> list[JudgedRun]:
+    from benchmarks.recording.sources import LawOptions, open_source
+
+    runs = []
+    for number, path in enumerate(request.recordings):
+        recording, _ = open_source(path, LawOptions(), request.config, dict(request.overrides))
+        runs.append(
+            score_recording(
+                recording,
+                request.believed(recording.config),
+                request.subjects,
+                request.rules,
+                lambda items: tracked(items, "listening"),
+                number,
+            )
+        )
+    return runs
