@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import wraps
-from typing import Any
+from typing import Annotated, Any
 
 import typer
 from rich.console import Console
@@ -17,13 +17,18 @@ from benchmarks.commands.play import play
 from benchmarks.commands.replay import replay
 from benchmarks.commands.score import score
 from benchmarks.commands.train import TrainingStoppedError, train
+from benchmarks.commands.usage import complaint
 from benchmarks.commands.validate import validate
 from estimators.errors import GtEnvError
+from gt_env import __version__
 
+PROGRAM = "gt-env"
+INTERRUPTED = 130
+"""Exit status after Ctrl-C, as shells expect it."""
+NOTHING_WRITTEN = "interrupted: nothing was written"
 app = typer.Typer(
-    name="gt-env",
+    name=PROGRAM,
     help="A low-cost external ground truth for mobile robots: simulate it, validate it, use it.",
-    no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
@@ -35,7 +40,20 @@ class StoppedError(GtEnvError):
     """Ctrl-C while a command was at work."""
 
 
-def _interruptible(command: Command) -> Command:
+@app.callback(invoke_without_command=True)
+def _global_options(
+    context: typer.Context,
+    show_version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
+) -> None:
+    if show_version:
+        print(PROGRAM, __version__)
+        raise typer.Exit
+    if context.invoked_subcommand is None:
+        print(context.get_help(), file=sys.stderr)
+        raise typer.Exit(2)
+
+
+def _interruptible(command: Command, said: str = NOTHING_WRITTEN) -> Command:
     """The command, with Ctrl-C answered by a message: outputs are written in one go, at the very end."""
 
     @wraps(command)
@@ -43,7 +61,7 @@ def _interruptible(command: Command) -> Command:
         try:
             command(*args, **kwargs)
         except KeyboardInterrupt:
-            raise StoppedError("interrupted: nothing was written") from None
+            raise StoppedError(said) from None
 
     return run
 
@@ -54,24 +72,34 @@ app.command()(_interruptible(score))
 app.command()(_interruptible(calibrate))
 app.command()(_interruptible(bench))
 app.command()(_interruptible(evaluate))
-app.command()(train)  # a training saves itself
-app.command()(play)  # it has recordings to save, and says itself what became of them
+app.command()(_interruptible(train, "interrupted"))  # a training saves itself, and says so
+app.command()(_interruptible(play, "interrupted"))  # so does a session with recordings
 
 
-def main() -> None:
-    """Run the command line; an error of the domain is one line and exit status 1."""
+def run(words: Sequence[str]) -> int:
+    """Run the command line.
+
+    Args:
+        words: Its arguments, without the program's name.
+
+    Returns:
+        The exit status: 2 where the command line cannot be understood, 1 after an error of the domain, 130 after
+        Ctrl-C; each of them is one line on stderr.
+    """
     try:
-        app()
+        return app(args=list(words), prog_name=PROGRAM, standalone_mode=False) or 0
+    except typer.TyperException as error:
+        return _failed(complaint(error, app, words), error.exit_code)
     except (StoppedError, TrainingStoppedError) as error:
-        _fail(str(error), 130)
+        return _failed(str(error), INTERRUPTED)
     except GtEnvError as error:
-        _fail(str(error), 1)
+        return _failed(str(error), 1)
     except OSError as error:
-        _fail(f"{error.filename or 'output'}: {error.strerror or error}", 1)
+        return _failed(f"{error.filename or 'output'}: {error.strerror or error}", 1)
 
 
-def _fail(message: str, status: int) -> None:
+def _failed(message: str, status: int) -> int:
     Console(stderr=True, emoji=False, highlight=False, soft_wrap=True).print(
-        f"gt-env: {message}", markup=False
+        f"{PROGRAM}: {message}", markup=False
     )
-    sys.exit(status)
+    return status

@@ -6,7 +6,7 @@ import os
 import shutil
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from estimators.errors import GtEnvError
@@ -17,14 +17,14 @@ class OutputError(GtEnvError, OSError):
 
 
 def check_writable(folder: Path) -> None:
-    """Refuse an output folder before any work is done for it.
+    """Refuse an output folder before any work is done for it; it is not made yet.
 
     Raises:
         OutputError: If the folder cannot be made or written to.
     """
+    missing = _missing(folder)
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
+        with tempfile.TemporaryFile(dir=missing[-1].parent if missing else folder):
             pass
     except OSError as error:
         raise OutputError(f"--out {folder}: cannot be written to: {error.strerror}") from None
@@ -40,6 +40,8 @@ def staged(folder: Path) -> Iterator[Path]:
         OutputError: If writing fails, e.g. because the disk is full.
     """
     check_writable(folder)
+    made = _missing(folder)
+    folder.mkdir(parents=True, exist_ok=True)
     scratch = Path(tempfile.mkdtemp(prefix=".unfinished-", dir=folder))
     try:
         yield scratch
@@ -55,3 +57,11 @@ def staged(folder: Path) -> Iterator[Path]:
         raise OutputError(f"{folder}: nothing was written: {error.strerror}") from None
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
+        with suppress(OSError):  # what holds files stays
+            for path in made:
+                path.rmdir()
+
+
+def _missing(folder: Path) -> list[Path]:
+    """The folders that must be made to have this one, innermost first."""
+    return [path for path in (folder, *folder.parents) if not os.path.lexists(path)]

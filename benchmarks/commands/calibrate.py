@@ -17,6 +17,7 @@ from benchmarks.commands.options import (
     OutOption,
     RateOption,
     SetOption,
+    assumed,
     require_report_extra,
 )
 from benchmarks.output import check_writable, staged
@@ -64,5 +65,7 @@ def calibrate(
     console = Console(emoji=False)
     for table in tables:
         console.print(rich_table(table))
+    for line in assumed(source, config):
+        console.print(line, soft_wrap=True, highlight=False, markup=False)
     for name in (CALIBRATION_FILE, *(() if no_figures else ("report.html",))):
         console.print(str(out / name), soft_wrap=True, highlight=False, markup=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated
@@ -9,8 +10,10 @@ from typing import Annotated
 import typer
 
 from benchmarks.engines import ENGINES
+from benchmarks.recording.recording import Recording
 from estimators.calibration_file import read_calibration
-from estimators.errors import MissingExtraError
+from estimators.errors import ConfigError, MissingExtraError
+from estimators.protocol import METHODS
 from gt_env.config import EnvConfig, believing, load_config, parse_override
 
 ConfigOption = Annotated[
@@ -47,6 +50,9 @@ CalibrationOption = Annotated[
         help="What `gt-env calibrate` found, to be believed over the configuration.",
     ),
 ]
+GtMethodOption = Annotated[
+    str, typer.Option("--method", metavar="NAME", help=f"Ground-truth method: {', '.join(METHODS)}.")
+]
 BearingIncrementOption = Annotated[
     float | None, typer.Option(help="Text log or folder: angle between ranges [deg].")
 ]
@@ -76,6 +82,23 @@ def configuration(config: str, overrides: list[str] | None, calibration: Path | 
 def calibrated(config: EnvConfig, calibration: Path | None) -> EnvConfig:
     """A configuration that believes a calibration file, if there is one."""
     return config if calibration is None else believing(config, read_calibration(calibration))
+
+
+def assumed(recording: Recording, config: str | None) -> list[str]:
+    """What the user should know of a configuration that neither the data nor `--config` named: a line, or none."""
+    if recording.config is not None or config is not None:
+        return []
+    return ["The data bring no configuration: preset thesis is believed; --config names another."]
+
+
+def require_one_of(option: str, value: str, allowed: Iterable[str]) -> None:
+    """Refuse a name that stands for nothing.
+
+    Raises:
+        ConfigError: If `value` is not among `allowed`.
+    """
+    if value not in allowed:
+        raise ConfigError(f"{option} {value}: must be one of {', '.join(allowed)}")
 
 
 def require_report_extra() -> None:

@@ -6,13 +6,21 @@ import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import gymnasium as gym
 import typer
 from rich.console import Console
 
-from benchmarks.commands.options import ConfigOption, OutOption, SeedOption, SetOption, configuration
+from benchmarks.commands.options import (
+    ConfigOption,
+    GtMethodOption,
+    OutOption,
+    SeedOption,
+    SetOption,
+    configuration,
+    require_one_of,
+)
 from benchmarks.output import check_writable
 from benchmarks.play.session import PlaySession
 from benchmarks.play.terminal import TerminalError, play_in_terminal, terminal_available
@@ -29,16 +37,15 @@ def play(
     config: ConfigOption = "thesis",
     overrides: SetOption = None,
     seed: SeedOption = 0,
-    method: Annotated[
-        str, typer.Option("--method", help=f"Ground-truth method: {', '.join(METHODS)}.")
-    ] = "thesis",
+    method: GtMethodOption = "fused",
     out: OutOption = Path("out/play"),
 ) -> None:
     """Drive with the arrow keys and record; in the terminal where there is no display."""
+    require_one_of("--method", method, METHODS)
     settings = configuration(config, overrides)
+    check_writable(out)
     window = _window()
     try:
-        check_writable(out)
         session = PlaySession(_arena(settings, method, draws=window is not None), out)
         _play(session, seed, window)
     finally:

@@ -18,10 +18,13 @@ from benchmarks.commands.options import (
     BearingMinOption,
     CalibrationOption,
     DataConfigOption,
+    GtMethodOption,
     OutOption,
     RateOption,
     SetOption,
+    assumed,
     calibrated,
+    require_one_of,
 )
 from benchmarks.figures import require_matplotlib
 from benchmarks.output import check_writable, staged
@@ -43,9 +46,7 @@ def replay(
     file: Annotated[
         Path, typer.Argument(metavar="FILE", help="A recording, a folder or a text log of scans.")
     ],
-    method: Annotated[
-        str, typer.Option("--method", help=f"Ground-truth method: {', '.join(METHODS)}.")
-    ] = "thesis",
+    method: GtMethodOption = "fused",
     bearing_increment_deg: BearingIncrementOption = None,
     bearing_min_deg: BearingMinOption = None,
     rate: RateOption = None,
@@ -55,6 +56,7 @@ def replay(
     out: OutOption = Path("out/replay"),
 ) -> None:
     """Run recorded measurements through a ground-truth method; write the poses and a figure."""
+    require_one_of("--method", method, METHODS)
     require_matplotlib()
     options = LawOptions(
         bearing_min_deg=bearing_min_deg, bearing_increment_deg=bearing_increment_deg, rate=rate
@@ -68,7 +70,7 @@ def replay(
     report = summary(recording, result, believed)
     with staged(out) as folder:
         _write(folder, recording, result, report, believed)
-    _print(report, out)
+    _print(report, assumed(recording, config), out)
 
 
 def summary(recording: Recording, result: Replay, believed: EnvConfig) -> dict[str, Any]:
@@ -130,7 +132,7 @@ def _write(
     save_png(replay_figure(recording, result, believed.calibration()), folder / "replay.png")
 
 
-def _print(report: dict[str, Any], out: Path) -> None:
+def _print(report: dict[str, Any], remarks: list[str], out: Path) -> None:
     setup, gt, errors = report["setup"], report["gt"], report["gt_vs_true"]
     counts = ", ".join(f"{n} {kind}" for kind, n in report["measurements"].items() if n)
     table = Table(title=escape(f"{Path(setup['file']).name}: {counts}"), title_justify="left")
@@ -147,7 +149,8 @@ def _print(report: dict[str, Any], out: Path) -> None:
     line = f"{gt['n']} poses, {100 * gt['valid']:.0f} % valid"
     if errors is not None:
         line += f", RMSE {errors['rmse_xy_mm']:.1f} mm against the true pose"
-    console.print(f"{line}. Written to {out}", markup=False)
+    for said in (*remarks, f"{line}. Written to {out}"):
+        console.print(said, markup=False)
 
 
 def _to_mm(values: Numbers) -> Numbers:

@@ -21,12 +21,12 @@ from benchmarks.commands.options import (
     SeedOption,
     SetOption,
     configuration,
+    require_one_of,
     require_report_extra,
 )
 from benchmarks.engines import Engine
 from benchmarks.hindsight import WATCHED
 from benchmarks.output import check_writable, staged
-from estimators.errors import ConfigError
 
 MethodOption = Annotated[
     list[str] | None,
@@ -121,6 +121,5 @@ def validate(
 def _methods(names: list[str] | None) -> tuple[str, ...]:
     """What was asked for, each once, in order; without a wish the thesis's own and the best there are."""
     for name in names or ():
-        if name not in WATCHED:
-            raise ConfigError(f"--method {name}: must be one of {', '.join(WATCHED)}")
+        require_one_of("--method", name, WATCHED)
     return tuple(dict.fromkeys(names or DEFAULT_METHODS))

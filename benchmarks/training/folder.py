@@ -43,7 +43,8 @@ class Run:
     setup: dict[str, Any]
 
     def write(self, folder: Path) -> None:
-        """Write `run.json`."""
+        """Write `run.json`; the folder is made if need be."""
+        folder.mkdir(parents=True, exist_ok=True)
         values = {
             "task": self.task,
             "algo": self.algo,

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from benchmarks import cli
+from benchmarks.__main__ import main
 from benchmarks.calibration import calibrate
+from benchmarks.cli import app
 from benchmarks.driving import actions
 from benchmarks.paths import path_script, path_start
 from benchmarks.recording import MessageLog, Recording, RecordingWriter, read_recording
@@ -70,7 +71,7 @@ def short(tmp_path_factory):
 def written(short, tmp_path_factory):
     """What the command wrote of it, and what it said."""
     out = tmp_path_factory.mktemp("calibrate")
-    done = CliRunner().invoke(cli.app, ["calibrate", str(short[0]), "--out", str(out)])
+    done = CliRunner().invoke(app, ["calibrate", str(short[0]), "--out", str(out)])
     assert done.exit_code == 0, done.output
     return out, done.output
 
@@ -113,7 +114,7 @@ def test_replay_believes_a_calibration_file(short, written, tmp_path):
     for options in ([], ["--calibration", str(written[0] / "calibration.toml")]):
         out = tmp_path / f"replay{len(options)}"
         command = ["replay", str(short[0]), "--method", "lrf", "--out", str(out), *options]
-        done = CliRunner().invoke(cli.app, command)
+        done = CliRunner().invoke(app, command)
         assert done.exit_code == 0, done.output
         errors.append(json.loads((out / "report.json").read_text())["gt_vs_true"]["rmse_xy_mm"])
     assert errors[0] > 30.0
@@ -177,7 +178,7 @@ def test_bad_input_on_the_command_line_is_one_line(short, tmp_path, monkeypatch,
     ]
     monkeypatch.setattr(sys, "argv", ["gt-env", *command])
     with pytest.raises(SystemExit) as stopped:
-        cli.main()
+        main()
     assert stopped.value.code == 1
     error = capsys.readouterr().err
     assert error.startswith(f"gt-env: {tmp_path / 'bad.toml'}: unknown key width = 2")

@@ -7,6 +7,7 @@ import sys
 import time
 from pathlib import Path
 from types import SimpleNamespace
+from unittest.mock import Mock
 
 import pytest
 import typer
@@ -145,8 +146,9 @@ def test_the_window_is_closed_when_the_session_cannot_start(monkeypatch, tmp_pat
     window.close = lambda: setattr(window, "closed", True)
     monkeypatch.setattr(command, "_window", lambda: window)
 
-    with pytest.raises(ValueError, match="must be one of"):
-        command.play(method="guess", out=tmp_path)
+    monkeypatch.setattr(command, "GroundTruthWrapper", Mock(side_effect=ValueError("no such thing")))
+    with pytest.raises(ValueError, match="no such thing"):
+        command.play(out=tmp_path)
     assert window.closed
 
 

@@ -233,8 +233,9 @@ def test_command_on_a_recording_believes_what_was_recorded(tmp_path, cli):
             writer.write_truth(stamp, pose)
         for message in messages:
             writer.write(message)
-    assert cli(tmp_path / "run.mcap", "--out", tmp_path / "a").exit_code == 0
-    assert cli(tmp_path / "run.mcap", "--config", "thesis", "--out", tmp_path / "b").exit_code == 0
+    told = (tmp_path / "run.mcap", "--method", "thesis")
+    assert cli(*told, "--out", tmp_path / "a").exit_code == 0
+    assert cli(*told, "--config", "thesis", "--out", tmp_path / "b").exit_code == 0
     mean_y = [json.loads((tmp_path / d / "report.json").read_text())["gt"]["mean"][1] for d in "ab"]
     assert mean_y[0] - mean_y[1] == pytest.approx(0.05, abs=0.005)
     report = json.loads((tmp_path / "b" / "report.json").read_text())

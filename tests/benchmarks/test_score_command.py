@@ -11,7 +11,7 @@ import pytest
 
 pytest.importorskip("pybullet")
 
-from benchmarks import cli
+from benchmarks.__main__ import main
 
 TUTORIAL = Path(__file__).parents[2] / "docs" / "your_localizer.md"
 PARTS = {"gt_vs_true", "estimate_vs_gt", "estimate_vs_true", "ratios", "verdicts", "nees", "availability"}
@@ -37,7 +37,7 @@ def command(monkeypatch, tmp_path, capsys):
     def run(*words):
         monkeypatch.setattr(sys, "argv", ["gt-env", *words])
         try:
-            cli.main()
+            main()
             status = 0
         except SystemExit as end:
             status = end.code or 0
