@@ -17,9 +17,9 @@ from estimators.calibration import DEG, Calibration
 from estimators.calibration_file import CalibrationFile
 from estimators.messages import LaserScan
 from estimators.poses import Array
-from estimators.self_calibration import SelfCalibration, self_calibrate
 from estimators.self_calibration.quantities import NAMES, QUANTITIES, Quantity, values_of
 from estimators.self_calibration.residuals import column_residuals, wall_residuals
+from estimators.self_calibration.run import SelfCalibration, self_calibrate
 from gt_env.config import EnvConfig
 
 SHOWN: Final[dict[str, tuple[str, float]]] = {"m": ("mm", 1e3), "rad": ("deg", 1 / DEG), "s": ("ms", 1e3)}

@@ -11,7 +11,6 @@ import typer
 
 from benchmarks.engines import ENGINES
 from benchmarks.recording.recording import Recording
-from estimators.calibration_file import read_calibration
 from estimators.errors import ConfigError, MissingExtraError
 from estimators.protocol import METHODS
 from gt_env.config import EnvConfig, believing, load_config, parse_override
@@ -81,7 +80,11 @@ def configuration(config: str, overrides: list[str] | None, calibration: Path | 
 
 def calibrated(config: EnvConfig, calibration: Path | None) -> EnvConfig:
     """A configuration that believes a calibration file, if there is one."""
-    return config if calibration is None else believing(config, read_calibration(calibration))
+    if calibration is None:
+        return config
+    from estimators.calibration_file import read_calibration  # a third of a second
+
+    return believing(config, read_calibration(calibration))
 
 
 def assumed(recording: Recording, config: str | None) -> list[str]:

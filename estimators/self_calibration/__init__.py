@@ -1,5 +1,1 @@
-"""The station's own calibration, from the known walls and the moving target."""
-
-from estimators.self_calibration.run import SelfCalibration, self_calibrate
-
-__all__ = ["SelfCalibration", "self_calibrate"]
+"""The station's own calibration, from the known walls and the moving target; `run` begins it."""

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from estimators.calibration import DEG
-from estimators.calibration_file import CalibrationFile
 from gt_env.config.loading import load_config
 from gt_env.config.merging import merge, nested
 from gt_env.config.schema import EnvConfig
+
+if TYPE_CHECKING:
+    from estimators.calibration_file import CalibrationFile  # brings SciPy's sparse matrices
 
 
 def believing(config: EnvConfig, found: CalibrationFile) -> EnvConfig:

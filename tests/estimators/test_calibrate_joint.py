@@ -5,11 +5,11 @@ import pytest
 
 from estimators import RecordingError
 from estimators.messages import LaserScan
-from estimators.self_calibration import self_calibrate
 from estimators.self_calibration.joint import Evidence, solve
 from estimators.self_calibration.places import Places, RadiusEvidence
 from estimators.self_calibration.quantities import NAMES, PRIOR, Q, values_of, with_vector
 from estimators.self_calibration.rows import expected_columns
+from estimators.self_calibration.run import self_calibrate
 from estimators.self_calibration.sightings import Sightings
 from estimators.self_calibration.walls import Walls, expected_ranges
 
