@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import tempfile
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -22,6 +23,7 @@ from rich.progress import (
 
 from benchmarks.dask_runs import completed
 from benchmarks.engines import Engine, running
+from benchmarks.orphans import end_with
 from estimators.errors import GtEnvError
 
 RETURNS: Final = {"loky": "generator_unordered", "ray": "list"}
@@ -112,7 +114,7 @@ def run_side_by_side(
 
             def call(i: int) -> Any:
                 bar.started(steps[i], jobs)
-                return delayed(_run)(function, tasks[i], path, i)
+                return delayed(_run)(function, tasks[i], path, i, os.getpid())
 
             outcomes = (
                 _dask_outcomes(call, order, jobs) if engine.name == "dask" else _outcomes(call, order, engine)
@@ -168,8 +170,9 @@ def _died(error: Exception) -> _Raised:
 
 
 def _run(
-    function: Callable[[Task, Callable[[], None]], Result], task: Task, path: Path, slot: int
+    function: Callable[[Task, Callable[[], None]], Result], task: Task, path: Path, slot: int, parent: int
 ) -> tuple[int, Result | _Raised]:
+    end_with(parent)
     try:
         return slot, function(task, StepCounter(path, slot))
     except Exception as error:

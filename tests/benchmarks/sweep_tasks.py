@@ -2,6 +2,7 @@
 
 import os
 import time
+from pathlib import Path
 
 import numpy as np
 
@@ -21,5 +22,6 @@ def misbehave(task, on_step):
     if task == "die":
         os._exit(7)
     if task == "sleep":
+        Path(os.environ["TELL"], str(os.getpid())).touch()
         time.sleep(60)
     return task

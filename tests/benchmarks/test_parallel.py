@@ -65,9 +65,7 @@ def test_where_the_counters_cannot_be_reached_steps_are_not_counted(tmp_path):
     assert not (tmp_path / "elsewhere").exists()
 
 
-@pytest.mark.slow
-def test_ctrl_c_ends_a_sweep_promptly(tmp_path):
-    code = """
+SWEEP = """
 import io
 from rich.console import Console
 from benchmarks.parallel import run_side_by_side
@@ -75,12 +73,41 @@ from sweep_tasks import misbehave
 console = Console(file=io.StringIO())
 run_side_by_side(misbehave, ["sleep"] * 4, [1] * 4, jobs=2, label="", console=console)
 """
+
+
+@pytest.fixture
+def sweeping(tmp_path):
+    """Another process in the middle of a sweep, and the numbers of its workers."""
     run = subprocess.Popen(
-        [sys.executable, "-c", code], cwd=tmp_path, start_new_session=True, stderr=subprocess.PIPE, text=True,
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, sys.path))},
+        [sys.executable, "-c", SWEEP], cwd=tmp_path, start_new_session=True, stderr=subprocess.PIPE, text=True,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, sys.path)), "TELL": str(tmp_path)},
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     )  # fmt: skip
-    time.sleep(4)
-    os.killpg(run.pid, signal.SIGINT)
+    wait_until(lambda: len(list(tmp_path.iterdir())) == 2, 30.0)
+    return run, [int(path.name) for path in tmp_path.iterdir()]
+
+
+def wait_until(true, patience):
+    end = time.monotonic() + patience
+    while not true():
+        assert time.monotonic() < end, "took too long"
+        time.sleep(0.05)
+
+
+def is_alive(process):
+    """Whether it runs; one that has ended may wait for someone to ask for its exit status."""
+    path = Path(f"/proc/{process}/stat")
+    return path.exists() and path.read_text().rpartition(")")[2].split()[0] != "Z"
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="asks Linux for its processes")
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGKILL])
+def test_a_sweep_that_is_stopped_ends_with_all_its_processes(sweeping, how):
+    run, workers = sweeping
+    assert all(is_alive(worker) for worker in workers)
+
+    os.kill(run.pid, how)
     run.communicate(timeout=10)
+
     assert run.returncode != 0
+    wait_until(lambda: not any(is_alive(worker) for worker in workers), 10.0)
