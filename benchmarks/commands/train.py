@@ -19,7 +19,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from benchmarks.commands.options import SeedOption, SetOption, configuration
 from benchmarks.output import check_writable
 from benchmarks.policies.surroundings import ESTIMATES, TASKS
-from benchmarks.training.folder import POLICY, Run, best_policy, is_run, read_run
+from benchmarks.training.folder import POLICY, Run, best_policy, is_run, read_run, seed_folder
 from benchmarks.training.settings import ALGORITHMS, load_settings, make_settings, shipped
 from estimators.errors import ConfigError, GtEnvError, MissingExtraError
 
@@ -30,6 +30,14 @@ TasksConfigOption = Annotated[
 ]
 StepsOption = Annotated[
     int | None, typer.Option("--steps", min=1, help="Of the environment, in place of the file's.")
+]
+SeedsOption = Annotated[
+    int,
+    typer.Option(
+        "--seeds",
+        min=1,
+        help="Trainings that differ in their seed only, from --seed on, each in a folder of its own within --out.",
+    ),
 ]
 ResumeOption = Annotated[bool, typer.Option("--resume", help="Go on with the training in --out.")]
 EstimateOption = Annotated[
@@ -56,6 +64,7 @@ def train(
     config: TasksConfigOption = "tasks",
     overrides: SetOption = None,
     seed: SeedOption = 0,
+    seeds: SeedsOption = 1,
     steps: StepsOption = None,
     estimate: EstimateOption = None,
     settings_file: HyperOption = None,
@@ -70,27 +79,31 @@ def train(
     default = shipped(task, algo)
     if estimate is not None and estimate not in ESTIMATES:
         raise ConfigError(f"--estimate {estimate}: must be one of {', '.join(ESTIMATES)}")
-    if resume:
-        run = _resumed(folder, task, algo, steps)
-    else:
-        settings = load_settings(settings_file or default, {"steps": steps, "estimate": estimate})
-        from benchmarks.report.setup import versions
+    places = {folder: seed} if seeds == 1 else {seed_folder(folder, n): n for n in range(seed, seed + seeds)}
+    for place in dict.fromkeys([folder, *places]):
+        if is_run(place) and not (resume and place in places):
+            raise ConfigError(f"--out {place}: holds a training already: --resume goes on, or name another")
+    from benchmarks.report.setup import versions
 
-        run = Run(
-            task=task,
-            algo=algo,
-            seed=seed,
-            settings=settings,
-            config=configuration(config, overrides),
-            setup={"command": shlex.join(["gt-env", *sys.argv[1:]]), "versions": versions()},
-        )
-        if is_run(folder):
-            raise ConfigError(f"--out {folder}: holds a training already: --resume goes on, or name another")
+    settings = load_settings(settings_file or default, {"steps": steps, "estimate": estimate})
+    world = configuration(config, overrides)
+    setup = {"command": shlex.join(["gt-env", *sys.argv[1:]]), "versions": versions()}
+    runs = [
+        _resumed(place, task, algo, steps)
+        if resume and (seeds == 1 or is_run(place))
+        else Run(task=task, algo=algo, seed=number, settings=settings, config=world, setup=setup)
+        for place, number in places.items()
+    ]
     for package in ("torch", "stable_baselines3"):
         if find_spec(package) is None:
             raise MissingExtraError("gt-env train", package, "rl")
-    check_writable(folder)
-    _train(run, folder, resume, jobs)
+    for run, place in zip(runs, places, strict=True):
+        check_writable(place)
+        _train(run, place, resume and (place / POLICY).is_file(), jobs)
+    console = Console(emoji=False)
+    console.print(
+        f"gt-env evaluate {folder} judges what was learnt", soft_wrap=True, highlight=False, markup=False
+    )
 
 
 def _resumed(folder: Path, task: str, algo: str, steps: int | None) -> Run:
@@ -100,8 +113,6 @@ def _resumed(folder: Path, task: str, algo: str, steps: int | None) -> Run:
         raise ConfigError(f"--out {folder}: holds a training of --task {run.task} --algo {run.algo}")
     if run.algo == "bc":
         raise ConfigError("--resume: cloning is done in one go; train it anew")
-    if not (folder / POLICY).is_file():
-        raise ConfigError(f"--out {folder}: there is no {POLICY} to go on from")
     values = run.settings.as_dict()
     if steps is not None:
         values["steps"] = steps
@@ -131,7 +142,7 @@ def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
         transient=True,
     )
     with bar:
-        shown = bar.add_task("", total=run.settings.steps, name=f"{run.task} by {run.algo}")
+        shown = bar.add_task("", total=run.settings.steps, name=f"{run.task} by {run.algo}, seed {run.seed}")
         try:
             done = _learn(run, folder, resume, jobs, lambda n: bar.update(shown, completed=n))
         except KeyboardInterrupt:
@@ -142,7 +153,7 @@ def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
     spent = {key: value + run.setup.get(key, 0.0) for key, value in spent.items()}
     replace(run, setup={**run.setup, **spent}).write(folder)
     Console(emoji=False).print(
-        f"{best_policy(folder)}: {done} steps in {clock() - wall:.0f} s; gt-env evaluate {folder} judges it",
+        f"{best_policy(folder)}: {done} steps in {clock() - wall:.0f} s",
         soft_wrap=True,
         highlight=False,
         markup=False,

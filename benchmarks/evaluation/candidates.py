@@ -13,7 +13,7 @@ import gymnasium as gym
 
 from benchmarks.policies.named import SCRIPTED
 from benchmarks.policies.surroundings import policy_env
-from benchmarks.training.folder import Run, best_policy, is_run, read_run
+from benchmarks.training.folder import Run, best_policy, is_run, read_run, seed_folders
 from estimators.errors import ConfigError, MissingExtraError
 from gt_env.config import EnvConfig
 
@@ -50,7 +50,7 @@ def candidates(specs: list[str]) -> list[Candidate]:
     Raises:
         ConfigError: If one is none of the kinds there are, or is named twice.
     """
-    found = [_candidate(spec) for spec in specs]
+    found = [c for spec in specs for c in _candidates(spec)]
     names = [c.name for c in found]
     repeated = {name for name in names if names.count(name) > 1}
     found = [
@@ -62,15 +62,31 @@ def candidates(specs: list[str]) -> list[Candidate]:
     return found
 
 
+def _candidates(spec: str) -> list[Candidate]:
+    """One, or as many as there are trainings in a folder of several seeds."""
+    path = Path(spec)
+    if spec in SCRIPTED or not path.is_dir():
+        return [_candidate(spec)]
+    folders = [path] if is_run(path) else seed_folders(path)
+    if not folders:
+        raise ConfigError(f"POLICY {spec}: holds no training (gt-env train --out {spec} makes one)")
+    _require_learning(spec)
+    name = path.resolve().name
+    return [
+        Candidate(
+            name=name if folder == path else f"{name} {folder.name}",
+            spec=str(folder),
+            file=best_policy(folder),
+            run=read_run(folder),
+        )
+        for folder in folders
+    ]
+
+
 def _candidate(spec: str) -> Candidate:
     if spec in SCRIPTED:
         return Candidate(name=spec, spec=spec)
     path = Path(spec)
-    if path.is_dir():
-        if not is_run(path):
-            raise ConfigError(f"POLICY {spec}: holds no training (gt-env train --out {spec} makes one)")
-        _require_learning(spec)
-        return Candidate(name=path.resolve().name, spec=spec, file=best_policy(path), run=read_run(path))
     if path.is_file():
         _require_learning(spec)
         return Candidate(name=path.stem, spec=spec, file=path)

@@ -5,9 +5,11 @@ from __future__ import annotations
 import base64
 import json
 from pathlib import Path
+from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from benchmarks.evaluation.report import Findings, describe, tables
 from benchmarks.figures.policies import learning_figure, ways_figure
@@ -16,7 +18,7 @@ from benchmarks.figures.style import paper, save_png
 CAPTIONS = {
     "ways": "True ways over the map, the same episodes for all policies.",
     "learning": "How the trained policies learnt: evaluations on episodes that are neither trained on nor in the "
-    "tables above.",
+    "tables above; of several seeds the mean, in a band from the worst to the best.",
 }
 
 
@@ -46,17 +48,26 @@ def write_page(folder: Path, found: Findings) -> None:
 
 def _figures(found: Findings) -> dict[str, Figure]:
     plan = found.plan
-    curves = {}
-    if any(c.run for c in plan.candidates):
-        from benchmarks.training import sb3
-
-        for c in plan.candidates:
-            curve = sb3.learning_curve(c.file.parent) if c.run and c.file else None
-            if curve is not None and len(curve["steps"]) > 1:
-                curves[c.name] = curve
+    curves = _curves(found)
     with paper():
         room = plan.config.room.in_station_frame()
         figures = {"ways": ways_figure(found.episodes, room, plan.config.task.goal_radius)}
         if curves:
             figures["learning"] = learning_figure(curves)
     return figures
+
+
+def _curves(found: Findings) -> dict[str, list[dict[str, NDArray[Any]]]]:
+    """Learning curves by what the trainings have in common, or by name where one is alone."""
+    if not found.groups:
+        return {}
+    from benchmarks.training import sb3
+
+    files = {c.name: c.file for c in found.plan.candidates}
+    curves = {}
+    for kind, names in found.groups.items():
+        read = [sb3.learning_curve(file.parent) for name in names if (file := files[name])]
+        there = [curve for curve in read if curve is not None and len(curve["steps"]) > 1]
+        if there:
+            curves[kind if len(names) > 1 else names[0]] = there
+    return curves

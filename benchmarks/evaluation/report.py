@@ -5,14 +5,16 @@ from __future__ import annotations
 import json
 import shlex
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
+from benchmarks.evaluation.candidates import Candidate
 from benchmarks.evaluation.episode import Episode
 from benchmarks.evaluation.run import Evaluation
 from benchmarks.evaluation.scores import scored, spread
 from benchmarks.report.setup import versions
 from benchmarks.report.tables import Table
+from benchmarks.training.folder import Run
 
 NONE = "-"
 SPREAD = ("smallest", "mean", "largest")
@@ -39,18 +41,28 @@ class Findings:
 
 def findings(plan: Evaluation, episodes: dict[str, list[Episode]], command: str) -> Findings:
     """Score what was driven."""
-    groups: dict[str, list[str]] = {}
-    for c in plan.candidates:
-        if c.run is not None:
-            kind = f"{c.run.task} by {c.run.algo}, trained on {c.run.settings.estimate}"
-            groups.setdefault(kind, []).append(c.name)
     return Findings(
         plan=plan,
         episodes=episodes,
         scores={name: scored(driven) for name, driven in episodes.items()},
-        groups=groups,
+        groups=alike(plan.candidates),
         command=command,
     )
+
+
+def alike(found: Sequence[Candidate]) -> dict[str, list[str]]:
+    """Names of the trained policies whose trainings differ in nothing but their seed, by what they have in common."""
+    kinds: dict[str, Run] = {}
+    groups: dict[str, list[str]] = {}
+    for c in found:
+        if c.run is None:
+            continue
+        run = replace(c.run, seed=0, setup={})
+        kind = f"{run.task} by {run.algo}, {run.settings.steps} steps, trained on {run.settings.estimate}"
+        while kinds.setdefault(kind, run) != run:
+            kind += ", otherwise"
+        groups.setdefault(kind, []).append(c.name)
+    return groups
 
 
 def report_json(found: Findings) -> str:

@@ -62,17 +62,34 @@ def draw_ways(ax: Axes, episodes: Sequence[Episode], radius: float) -> None:
                 ax.plot(*circle.T, color=GOAL, lw=0.9, zorder=4)
 
 
-def learning_figure(curves: Mapping[str, Mapping[str, Any]]) -> Figure:
-    """Success and return over steps."""
+def learning_figure(curves: Mapping[str, Sequence[Mapping[str, Any]]]) -> Figure:
+    """Success and return over steps; several seeds of one kind are their mean within a band from worst to best."""
     figure, (above, below) = new_figure(WIDTH, 3.6, rows=2, sharex=True)
     colors = (REAL, *ESTIMATED)
-    for i, (name, curve) in enumerate(curves.items()):
-        look: dict[str, Any] = {"color": colors[i % len(colors)], "marker": ".", "ms": 4}
-        above.plot(curve["steps"] / 1000, 100 * curve["success"], label=name, **look)
-        below.plot(curve["steps"] / 1000, curve["return"], **look)
+    for i, (name, seeds) in enumerate(curves.items()):
+        color = colors[i % len(colors)]
+        draw_curve(above, [(c["steps"], 100 * c["success"]) for c in seeds], color, name)
+        draw_curve(below, [(c["steps"], c["return"]) for c in seeds], color, name)
     above.set_ylabel("success [%]")
     above.set_ylim(-3, 103)
     below.set_ylabel("return")
     below.set_xlabel("steps [1000]")
-    figure.legend(loc="outside upper center", ncols=min(4, len(curves)))
+    handles, labels = above.get_legend_handles_labels()
+    longest = max((len(label) for label in labels), default=0)
+    figure.legend(
+        handles, labels, loc="outside upper center", ncols=1 if longest > 30 else min(4, len(curves))
+    )
     return figure
+
+
+def draw_curve(ax: Axes, seeds: Sequence[tuple[Any, Any]], color: str, name: str) -> None:
+    """Steps and values of each seed (E,), over the steps at which all of them were evaluated."""
+    shared = sorted(set.intersection(*(set(np.asarray(steps).tolist()) for steps, _ in seeds)))
+    if not shared:
+        return
+    values = np.array([[v for s, v in zip(steps, got, strict=True) if s in shared] for steps, got in seeds])
+    x = np.array(shared) / 1000
+    if len(seeds) > 1:
+        ax.fill_between(x, values.min(axis=0), values.max(axis=0), color=color, alpha=0.2, lw=0)
+        name = f"{name} ({len(seeds)} seeds)"
+    ax.plot(x, values.mean(axis=0), color=color, marker=".", ms=4, label=name)

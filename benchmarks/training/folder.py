@@ -56,6 +56,17 @@ class Run:
         (folder / RUN).write_text(json.dumps(values, indent=1) + "\n", encoding="utf-8")
 
 
+def seed_folder(folder: Path, seed: int) -> Path:
+    """Where the training of a seed lies among several that differ in nothing else."""
+    return folder / f"seed-{seed}"
+
+
+def seed_folders(folder: Path) -> list[Path]:
+    """The trainings that lie so in a folder, in the order of their seeds."""
+    found = [path for path in folder.glob("seed-*") if is_run(path) and path.name[5:].isdigit()]
+    return sorted(found, key=lambda path: int(path.name[5:]))
+
+
 def is_run(folder: Path) -> bool:
     """Whether a training left its files here."""
     return (folder / RUN).is_file()

@@ -13,7 +13,7 @@ from pydantic.dataclasses import dataclass
 
 from benchmarks.policies.surroundings import ESTIMATES, OBSERVES, check_task
 from estimators.errors import ConfigError
-from gt_env.config.sections.fields import Flag, NotNegative, Whole
+from gt_env.config.sections.fields import Flag, NotNegative, Positive, Whole
 
 ALGORITHMS: Final = ("ppo", "sac", "bc")
 """Reinforcement learning by PPO or SAC, or behaviour cloning of a scripted policy."""
@@ -28,6 +28,7 @@ class TrainingSettings:
         environments: Copies that are stepped together.
         estimate: What the policy sees in training: a method, or the declared surrogate.
         observes: `pose`, `scan` (a history of scans, for the hard tier) or `raw`.
+        camera_rate: Frames per second in training [Hz], where the estimate looks at them; None for the configuration's.
         evaluate_every: Steps between evaluations.
         evaluate_episodes: Of each evaluation.
         checkpoint_every: Steps between checkpoints.
@@ -43,6 +44,7 @@ class TrainingSettings:
     environments: Whole = 1
     estimate: str = "surrogate"
     observes: str = "pose"
+    camera_rate: Positive | None = None
     evaluate_every: Whole = 10_000
     evaluate_episodes: Whole = 20
     checkpoint_every: Whole = 5_000
