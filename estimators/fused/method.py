@@ -200,11 +200,11 @@ class FusedEstimator:
 
     def _marker_reading(self, seen: MarkerMeasurement, yaw: float) -> MarkerReading:
         """A frame as the filter takes it; `yaw` is the target's, as known before [rad]."""
-        reading = MarkerReading(seen, self._mount, yaw - seen.bearing)
-        if self._view is None or not reading.shows_side_of(self._view):
-            self._view = reading
-            return reading
-        return replace(reading, seen=seen.steadied(self._view.seen))
+        side, view = yaw - seen.bearing, self._view
+        if view is not None and view.shows_side(side, seen.distance):
+            return MarkerReading(seen.steadied(view.seen), self._mount, side)
+        self._view = MarkerReading(seen, self._mount, side)
+        return self._view
 
     def _target(self, track: Track, stamp: float) -> tuple[Array, Array, float | None]:
         """Expected position of the target (2,), its covariance (2, 2), and the target's yaw if known [rad]."""

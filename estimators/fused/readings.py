@@ -226,10 +226,10 @@ class MarkerReading:
         shape = math.exp(-abs(math.remainder(self.side - before.side, 2 * math.pi)) / SHAPE_TURN)
         return np.tile([image, image, limbs, shape, shape], (len(velocities), 1))
 
-    def shows_side_of(self, before: MarkerReading) -> bool:
-        """Whether the target shows the same side as in a frame before, from as far away."""
-        turned = abs(math.remainder(self.side - before.side, 2 * math.pi))
-        return max(turned, abs(self.seen.distance / before.seen.distance - 1)) < SAME_SIDE
+    def shows_side(self, side: float, distance: float) -> bool:
+        """Whether a target that shows a side [rad] at a distance [m] shows the same as here, from as far away."""
+        turned = abs(math.remainder(side - self.side, 2 * math.pi))
+        return max(turned, abs(distance / self.seen.distance - 1)) < SAME_SIDE
 
     def first_pose(self, target: Array) -> Pose2:
         """Pose of the base if the target is at a position (2,) [m] and looks as it does."""

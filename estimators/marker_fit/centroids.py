@@ -29,10 +29,12 @@ def fit_centroids(problem: Problem, outline: TargetOutline, start: Array, steps:
         ends, slopes = problem.visible(edges)
         limb, limb_slopes = problem.limb_rows(edges)
         prior, prior_slopes = problem.prior_row(pose[2])
-        marker = (problem.centers - ends.mean(axis=1)) * weight
+        marker = (problem.centers - 0.5 * (ends[:, 0] + ends[:, 1])) * weight
+        marker_slopes = (slopes[:, 0] + slopes[:, 1]) * (0.5 * weight[:, None])
         residual = np.concatenate([limb, prior, marker])
-        jacobian = np.concatenate([limb_slopes, prior_slopes, slopes.mean(axis=1) * weight[:, None]])
+        jacobian = np.concatenate([limb_slopes, prior_slopes, marker_slopes])
         information = jacobian.T @ jacobian + FAINT
-        pose = pose + np.linalg.solve(information, jacobian.T @ residual)
-    left = residual - jacobian @ np.linalg.solve(information, jacobian.T @ residual)
+        move = np.linalg.solve(information, jacobian.T @ residual)
+        pose = pose + move
+    left = residual - jacobian @ move
     return Solution(pose, information, float(left @ left) / max(int((weight > 0).sum()), 1))

@@ -61,10 +61,13 @@ class TargetOutline:
         self.angles = np.asarray(target.marker_angles, float)
         half, face = 0.5 * target.marker_width, target.radius + target.marker_protrusion
         outer, base = math.atan2(half, face), math.asin(min(1.0, half / target.radius))
-        # Columns: left side's outer corner and foot, right side's outer corner and foot. A larger angle is
-        # further to the right in the image.
-        self._turn = np.array([-outer, -base, outer, base])
-        self._reach = np.array([math.hypot(half, face), target.radius] * 2)
+        # Of each marker (K) the left and the right side, which is at the larger angle; of each the corner and the foot.
+        turn = np.array([[-outer, outer], [-base, base]])[:, None, :]
+        around = math.pi + self.angles[:, None] + turn  # (2, K, 2)
+        self._reach = np.array([math.hypot(half, face), target.radius])
+        self._points = self._reach[:, None, None] * np.stack([np.sin(around), np.cos(around)])
+        self._turned = np.stack([self._points[1], -self._points[0]])
+        self._outwards = np.array([1.0, -1.0])
 
     def at(self, axis: float, relative: float, distance: float) -> Outline:
         """Edges and derivatives.
@@ -77,31 +80,31 @@ class TargetOutline:
         f, radius, d = self.focal, self.radius, distance
         half = math.asin(radius / d)
         spread = radius / (d * math.sqrt(d * d - radius * radius))
-        tangent = [math.tan(axis + half), math.tan(axis - half)]
-        scale = [-f * (1 + t * t) for t in tangent]
+        tangent = [math.tan(axis + half), math.tan(axis - half), math.tan(axis)]
+        scale = [-f * (1 + t * t) for t in tangent[:2]]
         limbs = np.array([-f * tangent[0], -f * tangent[1]])
         limb_slopes = np.array([[scale[0], 0.0, -scale[0] * spread], [scale[1], 0.0, scale[1] * spread]])
 
-        around = (relative + math.pi + self.angles)[:, None] + self._turn  # from the direction to the camera
-        sin, cos = self._reach * np.sin(around), self._reach * np.cos(around)
+        # Points of the target, counted from the direction to the camera: aside, and towards it.
+        points = self._points * math.cos(relative) + self._turned * math.sin(relative)
+        forward, t = d - points[1], tangent[2]
+        tan = (t * forward - points[0]) / (forward + t * points[0])
+        # Of a side one sees what is farther out: on the left the greater tangent, on the right the smaller.
+        is_foot = (tan[1] - tan[0]) * self._outwards > 0
+        tan, (sin, cos) = np.where(is_foot, tan[1], tan[0]), np.where(is_foot, points[:, 1], points[:, 0])
+        reach = np.where(is_foot, *self._reach[::-1])
         forward = d - cos
         square = forward * forward + sin * sin
-        tan = np.tan(axis - np.arctan2(sin, forward))
-        columns = -f * tan
-        first = np.where(columns[:, 0] <= columns[:, 1], 0, 1)
-        second = np.where(columns[:, 2] >= columns[:, 3], 2, 3)
-        pick = np.stack([first, second], axis=1)
-        rows = np.arange(len(self.angles))[:, None]
-        tan, sin, cos, square = tan[rows, pick], sin[rows, pick], cos[rows, pick], square[rows, pick]
-        reach = self._reach[pick]
         scaled = -f * (1 + tan * tan)
-        by_turn = scaled * (reach * reach - cos * d) / square
-        slopes = np.stack([scaled - by_turn, by_turn, scaled * sin / square], axis=-1)
-        foot = np.where(pick % 2 == 1, np.abs(sin) * f / (reach * d), 0.0)
+        slopes = np.empty((*tan.shape, 3))
+        slopes[..., 1] = by_turn = scaled * (reach * reach - cos * d) / square
+        slopes[..., 0] = scaled - by_turn
+        slopes[..., 2] = scaled * sin / square
         # Beyond the tangent point (cos = radius / d for a point of the cylinder) an edge is hidden.
         facing = cos / reach - radius / d
-        clear = np.clip(0.5 + facing / (2 * GRAZING), 0.0, 1.0)
-        return Outline(limbs, limb_slopes, columns[rows, pick], slopes, foot, facing > 0, clear)
+        clear = np.minimum(np.maximum(0.5 + facing / (2 * GRAZING), 0.0), 1.0)
+        depth = is_foot * np.abs(sin) * (f / (radius * d))
+        return Outline(limbs, limb_slopes, -f * tan, slopes, depth, facing > 0, clear)
 
     def turn_of(self, axis: float, columns: Array, distance: float) -> Array:
         """Angle on the cylinder (N,) [rad], from the direction to the camera, of what columns (N,) show."""

@@ -139,12 +139,13 @@ class Problem:
 
     def visible(self, outline: Outline) -> tuple[Array, Array]:
         """Ends (N, 2) [px] of the used markers as far as they are seen, and slopes (N, 2, 3)."""
-        ends, slopes = outline.markers[self.markers], outline.marker_slopes[self.markers]
-        clear = outline.clear[self.markers]
+        used = self.markers
+        ends, clear = outline.markers[used], outline.clear[used]
         # A hidden end is where the cylinder ends, on the same side.
-        side = (ends > outline.limbs.mean()).astype(int)
+        side = (ends > 0.5 * (outline.limbs[0] + outline.limbs[1])).astype(np.intp)
         limbs, limb_slopes = outline.limbs[side], outline.limb_slopes[side]
-        return limbs + clear * (ends - limbs), limb_slopes + clear[..., None] * (slopes - limb_slopes)
+        slopes = outline.marker_slopes[used] - limb_slopes
+        return limbs + clear * (ends - limbs), limb_slopes + clear[..., None] * slopes
 
 
 def pose_problem(

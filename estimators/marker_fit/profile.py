@@ -128,7 +128,7 @@ class ProfileReader:
         columns = np.arange(first, last + 1) - u
         single = [part[len(part) // 2] for part in parts[:2]]
         halves = np.stack([above, below])
-        return Profile(columns, halves.mean(axis=0), halves, across, single[0], single[1], n, cover, False)
+        return Profile(columns, 0.5 * (above + below), halves, across, single[0], single[1], n, cover, False)
 
     def _rectify(
         self, rgb: Image, low: float, high: float, middle: float, band: float, plain: tuple[float, float]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -53,9 +54,10 @@ def find_runs(profile: Profile, silhouette: Silhouette) -> MarkerRuns | None:
     strength = absorbed.max(axis=1)
     # One row tells how pixels are made: averaging rows mixes colours, too.
     single = (1 - profile.band_row[inside] / plain).max(axis=1) / profile.cover
+    mixes = (single > PURE) & (single < 1 - PURE)
     on = np.zeros(len(strength) + 2, np.int8)
     on[1:-1] = strength > FAINTEST
-    change = np.diff(on)
+    change = on[1:] - on[:-1]
     first, last = np.flatnonzero(change > 0), np.flatnonzero(change < 0) - 1
     if not 0 < len(first) <= MOST_RUNS:
         return None
@@ -65,13 +67,11 @@ def find_runs(profile: Profile, silhouette: Silhouette) -> MarkerRuns | None:
     for i, (a, b) in enumerate(zip(first.tolist(), last.tolist(), strict=True)):
         # One more pixel on either side holds what a cut pixel lacks.
         around = slice(max(a - 1, 0), min(b + 2, m))
-        share = np.clip(strength[around], 0, None)
+        share = np.maximum(strength[around], 0.0)
         centers[i] = float(share @ columns[around]) / float(share.sum())
-        hue = np.clip(absorbed[a : b + 1].sum(axis=0), 0, None)
-        hues[i] = hue / np.sqrt(hue @ hue)
+        hue = np.maximum(absorbed[a : b + 1].sum(axis=0), 0.0)
+        hues[i] = hue / math.sqrt(hue @ hue)
         if a > 0 and b < m - 1:
-            for pair in (slice(a - 1, a + 1), slice(b, b + 2)):
-                edge = single[pair]
-                mixed += int(((edge > PURE) & (edge < 1 - PURE)).any())
+            mixed += bool(mixes[a - 1] or mixes[a]) + bool(mixes[b] or mixes[b + 1])
     ends = np.stack([first, last], axis=1)
     return MarkerRuns(columns, absorbed, ends, centers, hues, mixed, (first == 0) | (last == m - 1))

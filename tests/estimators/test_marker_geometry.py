@@ -128,10 +128,9 @@ def test_frames_follow_the_distance_alike_until_the_target_turns_or_comes_nearer
     kept = other.steadied(measurement)
     assert (kept.lean, kept.sensitivity.tolist()) == (5.0, measurement.sensitivity.tolist())
     first = MarkerReading(measurement, Pose2(), 0.5)
-    assert MarkerReading(other, Pose2(), 0.5 - 2 * math.pi + 0.01).shows_side_of(first)
-    assert not MarkerReading(other, Pose2(), 0.55).shows_side_of(first)
-    nearer = dataclasses.replace(other, distance=0.95 * measurement.distance)
-    assert not MarkerReading(nearer, Pose2(), 0.5).shows_side_of(first)
+    assert first.shows_side(0.5 - 2 * math.pi + 0.01, measurement.distance)
+    assert not first.shows_side(0.55, measurement.distance)
+    assert not first.shows_side(0.5, 0.95 * measurement.distance)
 
 
 def test_errors_of_the_shape_last_while_the_target_shows_the_same_side(measurement):
