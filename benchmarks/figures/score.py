@@ -27,6 +27,10 @@ BAND = "#c9ccd2"
 """Of what the station does not know."""
 JUMP = 0.3
 """A line is broken where answers are farther apart [s]."""
+WINDOW = 1.0
+"""Over which errors in time are averaged, as roots of mean squares [s]: single ones would fill the panel."""
+MARGIN = 0.4
+"""Of the map around the walls [m]; whoever thinks to be farther out is not drawn there."""
 
 
 def color_of(index: int) -> str:
@@ -64,13 +68,19 @@ def map_figure(
     for ax in axes[len(runs) :]:
         ax.remove()
     handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=4, title=f"estimates {TITLES[align]}")
+    figure.legend(
+        handles,
+        labels,
+        loc="outside lower center",
+        ncols=min(len(labels), 5),
+        title=f"estimates {TITLES[align]}",
+    )
     return figure
 
 
 def draw_map(ax: Axes, run: JudgedRun, of_subject: Mapping[str, Pairs], room: Room, reference: str) -> None:
     """Ways over the map: the truth if it is known, the station, the subjects."""
-    draw_room(ax, room, margin=0.1)
+    draw_room(ax, room, margin=MARGIN)
     if run.truth is not None:
         ax.plot(*run.truth.poses[:, :2].T, color=REAL, lw=2.2, alpha=0.35, label="true", zorder=3)
     ax.plot(*_broken(run.references[reference]).T, color=STATION, lw=0.9, ls="--", label="gt", zorder=8)
@@ -78,6 +88,18 @@ def draw_map(ax: Axes, run: JudgedRun, of_subject: Mapping[str, Pairs], room: Ro
         if name in of_subject:
             way = _broken(of_subject[name].estimate)
             ax.plot(*way.T, color=color_of(index), lw=0.9, label=name, zorder=4)
+    lost = [outside(name, of_subject[name], room) for name in run.answers if name in of_subject]
+    middle, floor = 0.5 * (room.bounds[0] + room.bounds[2]), room.bounds[1] + 0.15
+    words = "\n".join(filter(None, lost))
+    ax.text(middle, floor, words, ha="center", va="bottom", fontsize=7, color=STATION, zorder=9)
+
+
+def outside(name: str, pairs: Pairs, room: Room) -> str:
+    """How many of a subject's poses the map does not show, in words; "" if it shows all."""
+    low, high = np.array(room.bounds[:2]) - MARGIN, np.array(room.bounds[2:]) + MARGIN
+    positions = pairs.estimate.poses[:, :2]
+    count = int(((positions < low) | (positions > high)).any(axis=1).sum())
+    return f"{name}: {100 * count / len(pairs):.0f} % of the poses off the map" if count else ""
 
 
 def time_figure(run: JudgedRun, of_subject: Mapping[str, Pairs], reference: str, align: Alignment) -> Figure:
@@ -98,19 +120,29 @@ def time_figure(run: JudgedRun, of_subject: Mapping[str, Pairs], reference: str,
             continue
         pairs = of_subject[name]
         errors, color = pairs.errors, color_of(index)
-        stamps, distance = _gaps(pairs.stamps, 1e3 * np.hypot(errors[:, 0], errors[:, 1]))
-        above.plot(stamps, distance, color=color, lw=0.9, label=name)
-        stamps, turned = _gaps(pairs.stamps, np.abs(errors[:, 2]) / DEG)
-        below.plot(stamps, turned, color=color, lw=0.9)
+        stamps, distance = _gaps(pairs.stamps, 1e3 * running_rms(pairs.stamps, np.hypot(*errors[:, :2].T)))
+        above.plot(stamps, distance, color=color, lw=1.1, label=name)
+        known = ~np.isnan(errors[:, 2])
+        stamps, turned = _gaps(pairs.stamps[known], running_rms(pairs.stamps[known], errors[known, 2]) / DEG)
+        below.plot(stamps, turned, color=color, lw=1.1)
     for ax, low in zip((above, below), lowest, strict=True):
         if low is not None:
             ax.set_ylim(bottom=low)
     below.set_xlabel("time [s]")
     below.set_xlim(gt.stamps[0], gt.stamps[-1])
-    above.set_title(f"Estimate vs gt ({reference}), {TITLES[align]}: {run.name}")
+    above.set_title(f"Estimate vs gt ({reference}), {TITLES[align]}, RMS over {WINDOW:g} s: {run.name}")
     handles, labels = above.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=4)
     return figure
+
+
+def running_rms(stamps: Array, errors: Array) -> Array:
+    """Root mean squares (N,) of errors (N,) at stamps (N,) that lie within half of `WINDOW` either way."""
+    summed = np.concatenate([[0.0], np.cumsum(errors**2)])
+    low = np.searchsorted(stamps, stamps - 0.5 * WINDOW)
+    high = np.searchsorted(stamps, stamps + 0.5 * WINDOW, side="right")
+    rms: Array = np.sqrt(((summed[high] - summed[low]) / (high - low)).clip(0.0))
+    return rms
 
 
 def _covariances(trajectory: Trajectory) -> Array:

@@ -22,6 +22,8 @@ from estimators.poses import Array
 
 SHOWN = 600
 """Points of a cloud."""
+LEAST_RATIO = 0.1
+"""Below which a ratio is drawn here: a corrected error may be zero."""
 
 
 def rpe_figure(summaries: Sequence[SubjectSummary], reference: str) -> Figure:
@@ -108,9 +110,9 @@ def ratio_figure(summaries: Sequence[SubjectSummary]) -> Figure:
     figure, axes = new_figure(WIDTH, 0.34 * len(summaries) + 1.5, columns=len(JUDGED), sharey=True)
     for ax, what in zip(axes, JUDGED, strict=True):
         draw_ratios(ax, summaries, what)
-        ax.set_title(what)
+        ax.set_title("relative, over 1 m" if what == "relative" else what)
     axes[0].set_yticks(range(len(summaries)), [s.name for s in summaries])
-    axes[0].invert_yaxis()
+    axes[0].set_ylim(len(summaries) - 0.5, -0.5)
     axes[1].set_xlabel("error of the localizer / uncertainty of the station")
     handles, labels = axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=4)
@@ -129,10 +131,10 @@ def draw_ratios(ax: Axes, summaries: Sequence[SubjectSummary], what: str) -> Non
             place = row + 0.22 * (k - 0.5 * (len(s.by_reference) - 1)) * 1.6
             for value, face, label in _marks(score, what, reference):
                 ax.plot(
-                    max(value, 0.1), place, marks[k % 3], ms=5, color=STATION, mfc=face, mew=0.9,
+                    max(value, LEAST_RATIO), place, marks[k % 3], ms=5, color=STATION, mfc=face, mew=0.9,
                     label=label if row == 0 else None, ls="none", zorder=4,
                 )  # fmt: skip
-                low, high = min(low, max(0.7 * value, 0.08)), max(high, 1.5 * value)
+                low, high = min(low, 0.7 * max(value, LEAST_RATIO)), max(high, 2.0 * value)
     ax.axvspan(low, MARGINAL, color="#f3c6c6", lw=0, zorder=0)
     ax.axvspan(MARGINAL, SUFFICIENT, color="#f7e6bd", lw=0, zorder=0)
     ax.axvspan(SUFFICIENT, high, color="#d3ead6", lw=0, zorder=0)

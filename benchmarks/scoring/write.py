@@ -127,19 +127,19 @@ def plates(result: Result, room: Room) -> list[Plate]:
         _plate(
             "ratios",
             "Who may be judged: green, the station is good enough; yellow, it shows the error but stands out itself; "
-            "red, it cannot tell. Filled: by its stated covariance, as in a lab; open: by the truth.",
+            "red, it cannot tell. Filled: by its stated covariance, as in a lab; open: by the truth, if known.",
             partial(ratio_figure, result.summaries),
         ),
         _plate(
             "trajectories",
-            "Ways over the map, the first run of each path; the station's dashed.",
+            "Ways over the map, the first run of each path; the station's dashed. Poses off the map are counted.",
             partial(map_figure, first, of_run, room, reference, rules.align),
         ),
         *(
             _plate(
                 f"errors-{run.name}",
-                "Errors over time. Grey: up to where the station itself may be off, as it says. An error within the "
-                "grey cannot be told from the station's.",
+                "Errors over time, root mean squares over a second. Grey: up to where the station itself may be off, "
+                "as it says. An error within the grey cannot be told from the station's.",
                 partial(time_figure, run, pairs, reference, rules.align),
             )
             for run, pairs in zip(first, of_run, strict=True)
