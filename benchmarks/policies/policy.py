@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from typing import Any, Protocol
 
@@ -40,7 +41,39 @@ class Policy(Protocol):
         """
 
 
-class SteeringPolicy(ABC):
+class ScriptedPolicy(ABC):
+    """Answers `predict()` row by row; what it remembers of an episode is a few numbers."""
+
+    observes = "pose"
+
+    @abstractmethod
+    def begin(self, row: Array) -> tuple[float, ...]:
+        """What is remembered when an episode begins with this observation."""
+
+    @abstractmethod
+    def act(self, row: Array, memory: tuple[float, ...]) -> tuple[Array, tuple[float, ...]]:
+        """The action (n,) for an observation, and what is remembered from now on."""
+
+    def predict(
+        self,
+        observation: Any,
+        state: State = None,
+        episode_start: Starts = None,
+        deterministic: bool = True,
+    ) -> tuple[NDArray[Any], State]:
+        """Choose actions; see `Policy`. The state holds what is remembered of each row's episode."""
+        rows = np.atleast_2d(np.asarray(observation))
+        begins = np.full(len(rows), state is None)
+        if episode_start is not None:
+            begins = begins | np.asarray(episode_start, bool)
+        past = [self.begin(row) for row in rows] if state is None else list(state[0])
+        before = [self.begin(row) if new else p for row, new, p in zip(rows, begins, past, strict=True)]
+        done = [self.act(row, memory) for row, memory in zip(rows, before, strict=True)]
+        actions = np.stack([action for action, _ in done]).astype(np.float32)
+        return (actions[0] if np.ndim(observation) == 1 else actions), (np.array([m for _, m in done]),)
+
+
+class SteeringPolicy(ScriptedPolicy):
     """Drives by where the goal is seen, a point at a time.
 
     Args:
@@ -49,8 +82,6 @@ class SteeringPolicy(ABC):
     Raises:
         ConfigError: If it is not.
     """
-
-    observes = "pose"
 
     def __init__(self, env: Any) -> None:
         names = getattr(env, "names", ())
@@ -69,24 +100,12 @@ class SteeringPolicy(ABC):
         The mode is 0 at the start of an episode; what it means is the policy's own affair.
         """
 
-    def predict(
-        self,
-        observation: Any,
-        state: State = None,
-        episode_start: Starts = None,
-        deterministic: bool = True,
-    ) -> tuple[NDArray[Any], State]:
-        """Choose actions; see `Policy`."""
-        rows = np.atleast_2d(np.asarray(observation, float))
-        modes = np.zeros(len(rows)) if state is None else np.array(state[0], float)
-        if episode_start is not None:
-            modes[np.asarray(episode_start, bool)] = 0.0
-        actions = np.stack([self._act(row, modes, i) for i, row in enumerate(rows)])
-        return (actions[0] if np.ndim(observation) == 1 else actions), (modes,)
+    def begin(self, row: Array) -> tuple[float, ...]:
+        """Mode 0."""
+        return (0.0,)
 
-    def _act(self, row: Array, modes: Array, i: int) -> Array:
-        far, near, cosine, sine = row[self._columns]
-        speed, rate, modes[i] = self.steer(
-            distance_of(float(far), float(near)), float(np.arctan2(sine, cosine)), float(modes[i])
-        )
-        return self.drive.action(speed, rate)
+    def act(self, row: Array, memory: tuple[float, ...]) -> tuple[Array, tuple[float, ...]]:
+        """Steer by distance and bearing."""
+        far, near, cosine, sine = (float(v) for v in row[self._columns])
+        speed, rate, mode = self.steer(distance_of(far, near), math.atan2(sine, cosine), float(memory[0]))
+        return self.drive.action(speed, rate), (mode,)

@@ -27,20 +27,11 @@ PROBE: Final = 0.5
 """Speed of that, over the maximum."""
 
 
-class Learner(Protocol):
+class Learner(Policy, Protocol):
     """What imitates."""
 
     def fit(self, observations: NDArray[Any], actions: NDArray[Any]) -> float:
         """Learn from all that was seen; returns the mean squared error."""
-
-    def predict(
-        self,
-        observation: Any,
-        state: Any = None,
-        episode_start: Any = None,
-        deterministic: bool = True,
-    ) -> tuple[NDArray[Any], Any]:
-        """Choose actions."""
 
     def save(self, folder: Path) -> None:
         """Save the policy."""

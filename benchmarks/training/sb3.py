@@ -133,6 +133,7 @@ class Imitator:
             raise ConfigError(f"[algorithm] of --algo bc: {', '.join(arguments)}: unknown")
         keywords = dict(run.settings.policy) or None
         self._model = PPO("MlpPolicy", env, seed=run.seed, device="cpu", policy_kwargs=keywords)
+        self.predict: Any = self._model.predict
         self._optimizer = torch.optim.Adam(self._model.policy.parameters(), lr=rate)
         self._rng = np.random.default_rng(run.seed)
 
@@ -149,12 +150,6 @@ class Imitator:
                 loss.backward()  # type: ignore[no-untyped-call]
                 self._optimizer.step()
         return float(loss.detach())
-
-    def predict(
-        self, observation: Any, state: Any = None, episode_start: Any = None, deterministic: bool = True
-    ) -> tuple[NDArray[Any], Any]:
-        """Choose actions."""
-        return self._model.predict(observation, state, episode_start, deterministic)
 
     def save(self, folder: Path) -> None:
         """Save the network."""
