@@ -1,22 +1,54 @@
-"""The registered environments with a task. Each docstring is the environment's specification."""
+"""The registered environments with a task. Each docstring is the environment's specification.
+
+What all of them share stands here once; `specified` puts it where a docstring names it.
+"""
 
 from __future__ import annotations
+
+import inspect
+from typing import Final, TypeVar
 
 from gt_env.tasks.env import TaskEnv
 from gt_env.tasks.follow_path import FollowPath
 from gt_env.tasks.patrol import Patrol
 from gt_env.tasks.reach import Reach
 
+SHARED: Final = {
+    "ACTION": """As `gt_env/Arena-v0`: `Box(-1, 1, (n,), float32)`, wheel speeds over the robot's maximum, held for one
+step of 0.1 s.""",
+    "OBSERVATION": "That of `gt_env/Arena-v0` (without `image` by default), and",
+    "REWARD": 'The sum of `info["reward_terms"]`; the weights are `task.reward`.',
+    "TIME_AND_SMOOTHNESS": """| `time` | minus the step's duration [s] | 0.2 |
+| `smoothness` | minus the squared change of the action | 0.005 |""",
+    "INFO": "That of `gt_env/Arena-v0`, and",
+    "COLLISION_AND_TERMS": """| `collision` | whether the robot touches something |
+| `reward_terms` | the terms above |""",
+    "ARGUMENTS": "`config`: as `gt_env/Arena-v0`; the preset where none is named is `tasks`. `render_mode`: the same.",
+    "VERSIONS": "v0: first version.",
+}
+"""Parts of the specifications, by the names that stand for them in braces."""
 
+_Env = TypeVar("_Env", bound=type[TaskEnv])
+
+
+def specified(env: _Env) -> _Env:
+    """Put what is shared into an environment's docstring."""
+    if env.__doc__:  # python -OO has none
+        env.__doc__ = inspect.cleandoc(env.__doc__)
+        for name, text in SHARED.items():
+            env.__doc__ = env.__doc__.replace(f"{{{name}}}", text)
+    return env
+
+
+@specified
 class ReachEnv(TaskEnv):
     """Drive to a goal in the room and touch nothing on the way.
 
     ## Action space
-    As `gt_env/Arena-v0`: `Box(-1, 1, (n,), float32)`, wheel speeds over the robot's maximum, held for one step
-    of 0.1 s.
+    {ACTION}
 
     ## Observation space
-    That of `gt_env/Arena-v0` (without `image` by default), and
+    {OBSERVATION}
 
     | key | shape | unit | what |
     |---|---|---|---|
@@ -25,24 +57,22 @@ class ReachEnv(TaskEnv):
     The observation holds no pose: `estimators.PoseObservation` puts in its place what the station measures.
 
     ## Reward
-    The sum of `info["reward_terms"]`; the weights are `task.reward`.
+    {REWARD}
 
     | term | value | default weight |
     |---|---|---|
     | `progress` | metres that the goal came nearer | 5 |
-    | `time` | minus the step's duration [s] | 0.2 |
-    | `smoothness` | minus the squared change of the action | 0.005 |
+    {TIME_AND_SMOOTHNESS}
     | `success` | 1 in the step that reaches the goal | 10 |
     | `failure` | minus 1 in a step that touches a wall or an obstacle | 10 |
 
     ## Info
-    That of `gt_env/Arena-v0`, and
+    {INFO}
 
     | key | what |
     |---|---|
     | `is_success` | whether the goal is reached |
-    | `collision` | whether the robot touches something |
-    | `reward_terms` | the terms above |
+    {COLLISION_AND_TERMS}
     | `task` | `distance`: of the robot's base to the goal [m] |
 
     ## Start
@@ -57,49 +87,47 @@ class ReachEnv(TaskEnv):
     contact. Truncated after `task.time_limit` (25 s).
 
     ## Arguments
-    `config`: as `gt_env/Arena-v0`; the preset where none is named is `tasks`. `render_mode`: the same.
+    {ARGUMENTS}
 
     ## Version history
-    v0: first version.
+    {VERSIONS}
     """
 
     task_type = Reach
 
 
+@specified
 class FollowPathEnv(TaskEnv):
     """Drive along a path to its end, fast and not beside it.
 
     ## Action space
-    As `gt_env/Arena-v0`: `Box(-1, 1, (n,), float32)`, wheel speeds over the robot's maximum, held for one step
-    of 0.1 s.
+    {ACTION}
 
     ## Observation space
-    That of `gt_env/Arena-v0` (without `image` by default), and
+    {OBSERVATION}
 
     | key | shape | unit | what |
     |---|---|---|---|
     | `goal` | (200,) float32 | m | the path: 100 points x, y, equally far apart, from its start to its end |
 
     ## Reward
-    The sum of `info["reward_terms"]`; the weights are `task.reward`.
+    {REWARD}
 
     | term | value | default weight |
     |---|---|---|
     | `progress` | metres along the path, negative backwards | 5 |
     | `cross_track` | minus the distance beside the path [m] times the step's duration [s] | 30 |
-    | `time` | minus the step's duration [s] | 0.2 |
-    | `smoothness` | minus the squared change of the action | 0.005 |
+    {TIME_AND_SMOOTHNESS}
     | `success` | 1 in the step that reaches the end | 10 |
     | `failure` | minus 1 in a step that leaves the corridor, or touches a wall or an obstacle | 10 |
 
     ## Info
-    That of `gt_env/Arena-v0`, and
+    {INFO}
 
     | key | what |
     |---|---|
     | `is_success` | whether the end is reached |
-    | `collision` | whether the robot touches something |
-    | `reward_terms` | the terms above |
+    {COLLISION_AND_TERMS}
     | `task` | `cross_track` [m], positive to the left; `station`, the way along the path [m]; `progress`, 0 to 1 |
 
     ## Start
@@ -113,24 +141,24 @@ class FollowPathEnv(TaskEnv):
     more than `task.corridor` (0.30 m) beside the path. Truncated after `task.time_limit` (60 s).
 
     ## Arguments
-    `config`: as `gt_env/Arena-v0`; the preset where none is named is `tasks`. `render_mode`: the same.
+    {ARGUMENTS}
 
     ## Version history
-    v0: first version.
+    {VERSIONS}
     """
 
     task_type = FollowPath
 
 
+@specified
 class PatrolEnv(TaskEnv):
     """Visit way-points in order, again and again, and touch nothing.
 
     ## Action space
-    As `gt_env/Arena-v0`: `Box(-1, 1, (n,), float32)`, wheel speeds over the robot's maximum, held for one step
-    of 0.1 s.
+    {ACTION}
 
     ## Observation space
-    That of `gt_env/Arena-v0` (without `image` by default), and
+    {OBSERVATION}
 
     | key | shape | unit | what |
     |---|---|---|---|
@@ -139,24 +167,22 @@ class PatrolEnv(TaskEnv):
     Which one is present is decided by the true position, as by a bell that rings at the way-point.
 
     ## Reward
-    The sum of `info["reward_terms"]`; the weights are `task.reward`.
+    {REWARD}
 
     | term | value | default weight |
     |---|---|---|
     | `progress` | metres that the present way-point came nearer | 5 |
-    | `time` | minus the step's duration [s] | 0.2 |
-    | `smoothness` | minus the squared change of the action | 0.005 |
+    {TIME_AND_SMOOTHNESS}
     | `success` | 1 in a step that reaches a way-point | 10 |
     | `failure` | minus 1 in a step that touches a wall or an obstacle | 10 |
 
     ## Info
-    That of `gt_env/Arena-v0`, and
+    {INFO}
 
     | key | what |
     |---|---|
     | `is_success` | whether at least one lap is complete, and nothing was touched |
-    | `collision` | whether the robot touches something |
-    | `reward_terms` | the terms above |
+    {COLLISION_AND_TERMS}
     | `task` | `distance` to the present way-point [m], `visited` way-points, `laps` |
 
     ## Start
@@ -167,23 +193,23 @@ class PatrolEnv(TaskEnv):
     Endless: terminated on contact only, truncated after `task.time_limit` (60 s).
 
     ## Arguments
-    `config`: as `gt_env/Arena-v0`; the preset where none is named is `tasks`. `render_mode`: the same.
+    {ARGUMENTS}
 
     ## Version history
-    v0: first version.
+    {VERSIONS}
     """
 
     task_type = Patrol
 
 
+@specified
 class ReachScanEnv(TaskEnv):
     """Reach, from nothing but the station's scans: the hard tier.
 
     The scan shows where the target is and not where it heads; that shows only in how it moves.
 
     ## Action space
-    As `gt_env/Arena-v0`: `Box(-1, 1, (n,), float32)`, wheel speeds over the robot's maximum, held for one step
-    of 0.1 s.
+    {ACTION}
 
     ## Observation space
     | key | shape | unit | what |
@@ -195,7 +221,7 @@ class ReachScanEnv(TaskEnv):
     As `gt_env/Reach-v0`.
 
     ## Version history
-    v0: first version.
+    {VERSIONS}
     """
 
     task_type = Reach

@@ -1,5 +1,6 @@
 """The environments with a task."""
 
+import re
 import warnings
 
 import gymnasium as gym
@@ -44,6 +45,21 @@ def test_info_has_the_same_keys_and_shapes_from_reset_and_step(task_env, name):
         assert kinds(info) == kinds(first)
         assert reward == pytest.approx(sum(info["reward_terms"].values()))
     assert {"is_success", "collision", "reward_terms", "task"} <= set(info)
+
+
+@pytest.mark.parametrize("name", ["Reach", "FollowPath", "Patrol"])
+def test_the_specification_names_what_there_is(task_env, name):
+    env = task_env(name, config=None)
+    spec, weights = env.unwrapped.__doc__, load_config("tasks").task.reward
+    _, info = env.reset(seed=0)
+
+    assert not re.search(r"\{[A-Z_]+\}", spec)  # all that is shared was put in
+    for term in info["reward_terms"]:
+        assert re.search(rf"\| `{term}` \| .+ \| {getattr(weights, term):g} \|", spec)
+    for key in set(info) - {"true_pose", "t"}:
+        assert f"| `{key}` |" in spec
+    assert f"({env.observation_space['goal'].shape[0]},) float32" in spec
+    assert "Box(-1, 1, (n,), float32)" in spec
 
 
 def test_the_hard_tier_sees_scan_and_goal_only(task_env):
@@ -200,16 +216,3 @@ def test_the_fast_camera_shows_the_obstacles_that_are_drawn(task_env):
 def test_unknown_options_are_refused(task_env):
     with pytest.raises(ConfigError, match="'aim'"):
         task_env("Reach").reset(options={"aim": (0.0, 1.0)})
-
-
-@pytest.mark.parametrize("name", IDS)
-@pytest.mark.parametrize("model", ["skid_steer", "ackermann", "omni3"])
-def test_every_robot_passes_both_libraries_checks_at_every_task(name, model):
-    checker = pytest.importorskip("stable_baselines3.common.env_checker")
-    config = {**BLIND, "robot": {"model": model}}
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        for check in (check_env, checker.check_env):
-            env = gym.make(f"gt_env:gt_env/{name}-v0", config=config).unwrapped
-            check(env)
-            env.close()
