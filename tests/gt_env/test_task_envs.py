@@ -1,12 +1,10 @@
 """The environments with a task."""
 
 import re
-import warnings
 
 import gymnasium as gym
 import numpy as np
 import pytest
-from gymnasium.utils.env_checker import check_env
 
 from estimators import ConfigError, GroundTruthWrapper
 from gt_env import load_config
