@@ -24,9 +24,9 @@ def wrap_angle(angle: float | Array) -> float | Array:
     # Just above pi the remainder rounds up to the whole turn, which would give -pi.
     if isinstance(angle, np.ndarray):
         turned = np.pi - np.mod(np.pi - angle, 2 * np.pi)
-        return np.where(turned > -np.pi, turned, np.pi)
+        return np.where(turned <= -np.pi, np.pi, turned)  # what is not a number stays so
     wrapped = math.pi - (math.pi - angle) % (2 * math.pi)
-    return wrapped if wrapped > -math.pi else math.pi
+    return math.pi if wrapped <= -math.pi else wrapped
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -99,3 +99,8 @@ def test_a_pose_is_immutable_and_gives_fresh_arrays():
         pose.x = 3
     assert pose.as_array() == pytest.approx([1, 2, 0.5])
     assert Pose2.of(pose) is pose
+
+
+def test_an_angle_that_is_not_known_is_not_made_up():
+    assert math.isnan(wrap_angle(math.nan))
+    assert np.isnan(wrap_angle(np.array([0.0, math.nan]))).tolist() == [False, True]
