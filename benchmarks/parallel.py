@@ -28,8 +28,8 @@ from estimators.errors import GtEnvError
 
 RETURNS: Final = {"loky": "generator_unordered", "ray": "list"}
 """How results come back from joblib: as soon as they are there, where the engine can."""
-NAMED: Final = 5
-"""How many failures a message lists."""
+NAMED: Final = 3
+"""How many reasons a message names, and how many of the tasks that failed for each."""
 Task = TypeVar("Task")
 Result = TypeVar("Result")
 
@@ -69,8 +69,11 @@ class SweepError(GtEnvError):
     """
 
     def __init__(self, failures: Sequence[Failure], results: Sequence[Any]) -> None:
-        said = "; ".join(f"{failure.task}: {failure.reason}" for failure in failures[:NAMED])
-        said += f"; and {len(failures) - NAMED} more" if len(failures) > NAMED else ""
+        tasks: dict[str, list[str]] = {}
+        for failure in failures:
+            tasks.setdefault(failure.reason, []).append(failure.task)
+        said = "; ".join(f"{_listed(named)}: {reason}" for reason, named in list(tasks.items())[:NAMED])
+        said += f"; and {len(tasks) - NAMED} other reasons" if len(tasks) > NAMED else ""
         super().__init__(f"{len(failures)} of {len(results)} runs failed: {said}")
         self.failures = tuple(failures)
         self.results = list(results)
@@ -130,6 +133,11 @@ def run_side_by_side(
     return cast(list[Result], results)
 
 
+def _listed(names: Sequence[str]) -> str:
+    more = len(names) - NAMED
+    return ", ".join(names[:NAMED]) + (f" and {more} more" if more > 0 else "")
+
+
 @dataclass(frozen=True, slots=True)
 class _Raised:
     """What a task comes back with instead of a result."""
@@ -175,6 +183,8 @@ def _run(
     end_with(parent)
     try:
         return slot, function(task, StepCounter(path, slot))
+    except GtEnvError as error:
+        return slot, _Raised(str(error))
     except Exception as error:
         return slot, _Raised(f"{type(error).__name__}: {error}")
 
@@ -194,6 +204,7 @@ class _StepBar(Progress):
             TimeRemainingColumn(),
             console=console,
             transient=True,
+            disable=not console.is_terminal,  # a file would get an empty line
         )
         self.add_task(label, total=total)
 

@@ -9,13 +9,16 @@ from typing import Final
 import numpy as np
 
 from benchmarks import metrics
+from benchmarks.hindsight import HINDSIGHT, keeping
 from benchmarks.recording.recording import Recording
 from benchmarks.rollout import Track
 from estimators.calibration import Calibration
 from estimators.errors import RecordingError
+from estimators.fused import FusedEstimator
 from estimators.messages import Message, PoseEstimate
 from estimators.poses import Array
 from estimators.protocol import Estimator, ground_truth_estimator
+from estimators.smooth import looking_back
 
 STATION: Final = "station/"
 MAX_TRUTH_GAP: Final = 0.1
@@ -66,7 +69,7 @@ def replay(
 
     Args:
         recording: Simulated or foreign.
-        method: One of `estimators.METHODS`.
+        method: One of `benchmarks.hindsight.WATCHED`: those that look back do so when all has been heard.
         calibration: What the method believes.
         watch: Passes the station's messages on one by one, as a progress bar does.
 
@@ -74,11 +77,14 @@ def replay(
         ConfigError: If there is no such method.
         RecordingError: If the recording holds nothing of the station, or a frame is no image.
     """
-    estimator = ground_truth_estimator(method, calibration)
+    ahead = HINDSIGHT.get(method)
+    estimator = keeping(ahead, calibration) if ahead else ground_truth_estimator(method, calibration)
     station = recording.messages.of_source(STATION)
     if not station:
         raise RecordingError(f"{recording.origin}: holds no message of the station ({STATION}...)")
     estimates = answers(watch(station), estimator)
+    if isinstance(estimator, FusedEstimator) and ahead:
+        estimates = looking_back(estimator)
     return Replay(
         method=method,
         estimates=tuple(estimates),

@@ -53,6 +53,7 @@ def run_bench(setup: Setup, console: Console) -> list[Finding]:
         console=console,
         transient=True,
         refresh_per_second=1,  # drawing takes time, too
+        disable=not console.is_terminal,
     )
     with bar:
         task = bar.add_task("", total=len(SECTIONS))

@@ -39,7 +39,7 @@ AddressOption = Annotated[
     typer.Option("--address", metavar="HOST:PORT", help="Of an existing ray or dask cluster."),
 ]
 NoFiguresOption = Annotated[
-    bool, typer.Option("--no-figures", help="Write report.json only; needs no plotting packages.")
+    bool, typer.Option("--no-figures", help="Write no figures and no page; needs no plotting packages.")
 ]
 CalibrationOption = Annotated[
     Path | None,
@@ -104,9 +104,16 @@ def require_one_of(option: str, value: str, allowed: Iterable[str]) -> None:
         raise ConfigError(f"{option} {value}: must be one of {', '.join(allowed)}")
 
 
-def require_report_extra() -> None:
-    """Refuse before anything is simulated what would fail when figures are drawn."""
-    for package in ("matplotlib", "jinja2"):
+def require_report_extra(*packages: str) -> None:
+    """Refuse before anything is simulated what would fail when figures are drawn.
+
+    Args:
+        packages: Which must be installed; without any, what figures and page need together.
+
+    Raises:
+        MissingExtraError: If one is not.
+    """
+    for package in packages or ("matplotlib", "jinja2"):
         if find_spec(package) is None:
             what = "the report with its figures (--no-figures goes without)"
             raise MissingExtraError(what, package, "report")

@@ -18,15 +18,16 @@ from benchmarks.commands.options import (
     BearingMinOption,
     CalibrationOption,
     DataConfigOption,
-    GtMethodOption,
+    NoFiguresOption,
     OutOption,
     RateOption,
     SetOption,
     assumed,
     calibrated,
     require_one_of,
+    require_report_extra,
 )
-from benchmarks.figures import require_matplotlib
+from benchmarks.hindsight import WATCHED
 from benchmarks.output import check_writable, staged
 from benchmarks.progress import tracked
 from benchmarks.recording.export import track_of, write_csv, write_tum
@@ -36,7 +37,6 @@ from benchmarks.replay import Replay
 from benchmarks.replay import replay as replay_recording
 from estimators.calibration import DEG
 from estimators.messages import LaserScan, TargetSighting
-from estimators.protocol import METHODS
 from gt_env.config import EnvConfig, parse_override
 
 Numbers = list[float | None]
@@ -46,7 +46,9 @@ def replay(
     file: Annotated[
         Path, typer.Argument(metavar="FILE", help="A recording, a folder or a text log of scans.")
     ],
-    method: GtMethodOption = "fused",
+    method: Annotated[
+        str, typer.Option("--method", metavar="NAME", help=f"Ground-truth method: {', '.join(WATCHED)}.")
+    ] = "fused",
     bearing_increment_deg: BearingIncrementOption = None,
     bearing_min_deg: BearingMinOption = None,
     rate: RateOption = None,
@@ -54,10 +56,12 @@ def replay(
     overrides: SetOption = None,
     calibration: CalibrationOption = None,
     out: OutOption = Path("out/replay"),
+    no_figures: NoFiguresOption = False,
 ) -> None:
     """Run recorded measurements through a ground-truth method; write the poses and a figure."""
-    require_one_of("--method", method, METHODS)
-    require_matplotlib()
+    require_one_of("--method", method, WATCHED)
+    if not no_figures:
+        require_report_extra("matplotlib")
     options = LawOptions(
         bearing_min_deg=bearing_min_deg, bearing_increment_deg=bearing_increment_deg, rate=rate
     )
@@ -69,7 +73,12 @@ def replay(
     result = replay_recording(recording, method, believed.calibration(), watch)
     report = summary(recording, result, believed)
     with staged(out) as folder:
-        _write(folder, recording, result, report, believed)
+        _write(folder, recording, result, report)
+        if not no_figures:
+            from benchmarks.figures.replay import replay_figure  # needs an extra
+            from benchmarks.figures.style import save_png
+
+            save_png(replay_figure(recording, result, believed.calibration()), folder / "replay.png")
     _print(report, assumed(recording, config), out)
 
 
@@ -116,12 +125,7 @@ def _in(values: tuple[float | None, ...], scale: float) -> Numbers:
     return [None if v is None else v * unit for v, unit in zip(values, units, strict=True)]
 
 
-def _write(
-    folder: Path, recording: Recording, result: Replay, report: dict[str, Any], believed: EnvConfig
-) -> None:
-    from benchmarks.figures.replay import replay_figure  # needs an extra
-    from benchmarks.figures.style import save_png
-
+def _write(folder: Path, recording: Recording, result: Replay, report: dict[str, Any]) -> None:
     track = track_of(result.estimates)
     if len(track):
         write_tum(folder / "gt.tum", track)
@@ -129,7 +133,6 @@ def _write(
     if len(recording.truth):
         write_tum(folder / "true.tum", recording.truth)
     (folder / "report.json").write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
-    save_png(replay_figure(recording, result, believed.calibration()), folder / "replay.png")
 
 
 def _print(report: dict[str, Any], remarks: list[str], out: Path) -> None:

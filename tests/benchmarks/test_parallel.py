@@ -45,8 +45,8 @@ def test_a_task_whose_process_dies_is_named_and_the_others_are_kept():
     assert raised.value.results == ["a", "b", None, "d", "e", None, "g"]
 
 
-def test_a_long_list_of_failures_is_cut():
-    with pytest.raises(SweepError, match=r"and 4 more$"):
+def test_what_failed_for_one_reason_is_named_once_and_a_long_list_is_cut():
+    with pytest.raises(SweepError, match=r": run 1, run 2, run 3 and 6 more: ValueError: no such pose$"):
         sweep(misbehave, ["raise"] * 9, jobs=1)
 
 

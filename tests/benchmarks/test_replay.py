@@ -8,7 +8,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-import benchmarks.figures
+from benchmarks.commands import options
 from benchmarks.commands.replay import replay as command
 from benchmarks.recording import (
     MessageLog,
@@ -243,6 +243,28 @@ def test_command_on_a_recording_believes_what_was_recorded(tmp_path, cli):
     assert (tmp_path / "b" / "true.tum").exists()
 
 
+def test_looking_back_knows_more_than_the_same_method_online():
+    messages, truth = driving()
+    recording = Recording(origin="made up", messages=MessageLog(messages), truth=truth)
+    online, back = (replay(recording, method, CALIBRATION) for method in ("lrf", "smooth-lrf"))
+
+    assert np.isin([e.stamp for e in back.estimates], [e.stamp for e in online.estimates]).all()
+    rms = [np.sqrt(np.nanmean(found.errors[:, :2] ** 2)) for found in (online, back)]
+    assert rms[1] < rms[0]
+
+
+def test_command_without_figures_needs_no_plotting_package(tmp_path, cli, monkeypatch):
+    with RecordingWriter(tmp_path / "run.mcap") as writer:
+        for message in driving()[0]:
+            writer.write(message)
+    monkeypatch.setattr(options, "find_spec", lambda name: None)
+    done = cli(tmp_path / "run.mcap", "--no-figures", "--out", tmp_path / "out")
+
+    assert done.exit_code == 0, done.exception
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["gt.csv", "gt.tum", "report.json"]
+    assert "preset thesis is believed" in done.output
+
+
 def test_command_refuses_before_anything_is_written(tmp_path, cli, monkeypatch):
     (tmp_path / "log.txt").write_text("1;2\n1;oops\n")
     out = tmp_path / "out"
@@ -257,6 +279,6 @@ def test_command_refuses_before_anything_is_written(tmp_path, cli, monkeypatch):
     assert isinstance(law.exception, ConfigError)
     method = cli(tmp_path / "run.mcap", "--method", "magic", "--out", out)
     assert isinstance(method.exception, ConfigError)
-    monkeypatch.setattr(benchmarks.figures, "find_spec", lambda name: None)
+    monkeypatch.setattr(options, "find_spec", lambda name: None)
     assert isinstance(cli(tmp_path / "run.mcap", "--out", out).exception, MissingExtraError)
     assert not out.exists() or not list(out.iterdir())
