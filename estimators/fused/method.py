@@ -83,6 +83,7 @@ class FusedEstimator:
         self._markers = MarkerFit(calibration) if camera else None
         self._mount = calibration.target.mount
         self._lrf = calibration.lrf.pose
+        self._curve = calibration.lrf.noise_sigma**2 / calibration.target.radius
         self._camera = calibration.camera
         self._model = MODELS[motion or calibration.motion]()
         self.reset()
@@ -196,7 +197,9 @@ class FusedEstimator:
         if fix is None or fix.log_odds < LEAST_ODDS or fix.mean_nll > WORST_NLL:
             return None
         mount = self._mount if self._track and self._track.oriented else Pose2()
-        return PositionReading(fix, mount, (self._lrf.x, self._lrf.y), abs(scan.bearing_increment))
+        return PositionReading(
+            fix, mount, (self._lrf.x, self._lrf.y), abs(scan.bearing_increment), self._curve
+        )
 
     def _marker_reading(self, seen: MarkerMeasurement, yaw: float) -> MarkerReading:
         """A frame as the filter takes it; `yaw` is the target's, as known before [rad]."""
