@@ -31,9 +31,12 @@ Info = dict[str, Any]
 class ArenaEnv(gym.Env[Observation, Array]):
     """Drive a robot in a room while a station of a laser rangefinder and a panning camera watches it.
 
-    There is no task: the reward is 0 and an episode never ends by itself.
+    ## Description
+    The world that the station is made for, without a task: the robot drives as it is told, the station measures. What
+    the station makes of it is for `estimators.GroundTruthWrapper`, which adds `info["gt"]`; `gt_env/Reach-v0` and
+    others add tasks.
 
-    ## Action space
+    ## Action Space
     `Box(-1, 1, (n,), float32)`, held for one step (`timing.step`, 0.1 s). Speeds are over the robot's maximum
     (`robot.max_wheel_speed`, 29.4 rad/s by default).
 
@@ -47,7 +50,7 @@ class ArenaEnv(gym.Env[Observation, Array]):
     A steering angle is over `robot.max_steering_deg`, positive to the left; three omnidirectional wheels with
     positive speeds turn the robot counter-clockwise.
 
-    ## Observation space
+    ## Observation Space
     A flat `Dict`. A sensor with nothing new repeats its last value with its old stamp; one that is switched
     off has no key.
 
@@ -63,7 +66,10 @@ class ArenaEnv(gym.Env[Observation, Array]):
 
     IMU and lidar of the robot are off by default (`onboard.imu.enabled`, `onboard.lidar.enabled`).
 
-    ## Info
+    ## Rewards
+    Always 0.
+
+    ## Information
     | key | shape | unit | what |
     |---|---|---|---|
     | `true_pose` | (3,) | m, m, rad | the simulator's pose of the robot's base |
@@ -72,15 +78,18 @@ class ArenaEnv(gym.Env[Observation, Array]):
     `env.unwrapped.measurements` holds every message since the last step in the order of delivery, and
     `env.unwrapped.truth` the true pose at every physics tick since then, rows of t, x, y, yaw.
 
-    ## Start
+    ## Starting State
     At `robot.start`, or at `reset(options={"pose": (x, y, yaw)})`, at rest, pan unit settled on the first
     scan.
+
+    ## Episode End
+    Never: neither terminated nor truncated. `gymnasium.make(..., max_episode_steps=N)` truncates.
 
     ## Arguments
     `config`: an `EnvConfig`, a mapping, a preset's name or a TOML file's path. `render_mode`: `rgb_array`, or
     `human` where there is a display.
 
-    ## Version history
+    ## Version History
     v0: first version.
     """
 

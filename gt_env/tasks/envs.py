@@ -44,10 +44,10 @@ def specified(env: _Env) -> _Env:
 class ReachEnv(TaskEnv):
     """Drive to a goal in the room and touch nothing on the way.
 
-    ## Action space
+    ## Action Space
     {ACTION}
 
-    ## Observation space
+    ## Observation Space
     {OBSERVATION}
 
     | key | shape | unit | what |
@@ -56,7 +56,7 @@ class ReachEnv(TaskEnv):
 
     The observation holds no pose: `estimators.PoseObservation` puts in its place what the station measures.
 
-    ## Reward
+    ## Rewards
     {REWARD}
 
     | term | value | default weight |
@@ -66,7 +66,7 @@ class ReachEnv(TaskEnv):
     | `success` | 1 in the step that reaches the goal | 10 |
     | `failure` | minus 1 in a step that touches a wall or an obstacle | 10 |
 
-    ## Info
+    ## Information
     {INFO}
 
     | key | what |
@@ -75,21 +75,21 @@ class ReachEnv(TaskEnv):
     {COLLISION_AND_TERMS}
     | `task` | `distance`: of the robot's base to the goal [m] |
 
-    ## Start
+    ## Starting State
     Goal and start pose uniform over the room, `task.margin` (0.40 m) off walls and obstacles,
     `task.station_margin` off LRF and camera (0.75 m in the preset: nearer, the pan unit cannot follow the robot at full
     speed) and at least `task.min_distance` (0.50 m) apart; any yaw.
     `reset(options={"pose": (x, y, yaw), "goal": (x, y)})` sets them. With `task.randomize` the room, its
     obstacles, noise, light and friction are drawn before.
 
-    ## End
+    ## Episode End
     Terminated when the true position of the base is within `task.goal_radius` (0.10 m) of the goal, and on
     contact. Truncated after `task.time_limit` (25 s).
 
     ## Arguments
     {ARGUMENTS}
 
-    ## Version history
+    ## Version History
     {VERSIONS}
     """
 
@@ -100,17 +100,17 @@ class ReachEnv(TaskEnv):
 class FollowPathEnv(TaskEnv):
     """Drive along a path to its end, fast and not beside it.
 
-    ## Action space
+    ## Action Space
     {ACTION}
 
-    ## Observation space
+    ## Observation Space
     {OBSERVATION}
 
     | key | shape | unit | what |
     |---|---|---|---|
     | `goal` | (200,) float32 | m | the path: 100 points x, y, equally far apart, from its start to its end |
 
-    ## Reward
+    ## Rewards
     {REWARD}
 
     | term | value | default weight |
@@ -121,7 +121,7 @@ class FollowPathEnv(TaskEnv):
     | `success` | 1 in the step that reaches the end | 10 |
     | `failure` | minus 1 in a step that leaves the corridor, or touches a wall or an obstacle | 10 |
 
-    ## Info
+    ## Information
     {INFO}
 
     | key | what |
@@ -130,20 +130,20 @@ class FollowPathEnv(TaskEnv):
     {COLLISION_AND_TERMS}
     | `task` | `cross_track` [m], positive to the left; `station`, the way along the path [m]; `progress`, 0 to 1 |
 
-    ## Start
+    ## Starting State
     A figure of eight, an ellipse or a wave of random size and place, with bends of at least 0.25 m,
     `task.margin` off walls and obstacles and `task.station_margin` off the station; or `task.path`. The robot
     starts at most 0.05 m beside the path's start, at most 20 deg turned away from it, or at
     `reset(options={"pose": (x, y, yaw)})`.
 
-    ## End
+    ## Episode End
     Terminated at the end of the path (`task.goal_radius` along it, 0.10 m), on contact, and when the base is
     more than `task.corridor` (0.30 m) beside the path. Truncated after `task.time_limit` (60 s).
 
     ## Arguments
     {ARGUMENTS}
 
-    ## Version history
+    ## Version History
     {VERSIONS}
     """
 
@@ -154,10 +154,10 @@ class FollowPathEnv(TaskEnv):
 class PatrolEnv(TaskEnv):
     """Visit way-points in order, again and again, and touch nothing.
 
-    ## Action space
+    ## Action Space
     {ACTION}
 
-    ## Observation space
+    ## Observation Space
     {OBSERVATION}
 
     | key | shape | unit | what |
@@ -166,7 +166,7 @@ class PatrolEnv(TaskEnv):
 
     Which one is present is decided by the true position, as by a bell that rings at the way-point.
 
-    ## Reward
+    ## Rewards
     {REWARD}
 
     | term | value | default weight |
@@ -176,7 +176,7 @@ class PatrolEnv(TaskEnv):
     | `success` | 1 in a step that reaches a way-point | 10 |
     | `failure` | minus 1 in a step that touches a wall or an obstacle | 10 |
 
-    ## Info
+    ## Information
     {INFO}
 
     | key | what |
@@ -185,17 +185,17 @@ class PatrolEnv(TaskEnv):
     {COLLISION_AND_TERMS}
     | `task` | `distance` to the present way-point [m], `visited` way-points, `laps` |
 
-    ## Start
+    ## Starting State
     A start pose as in `gt_env/Reach-v0` and `task.waypoint_count` (4) way-points drawn like its goal, each at
     least `task.min_distance` from the one before; or `task.waypoints`.
 
-    ## End
+    ## Episode End
     Endless: terminated on contact only, truncated after `task.time_limit` (60 s).
 
     ## Arguments
     {ARGUMENTS}
 
-    ## Version history
+    ## Version History
     {VERSIONS}
     """
 
@@ -208,19 +208,19 @@ class ReachScanEnv(TaskEnv):
 
     The scan shows where the target is and not where it heads; that shows only in how it moves.
 
-    ## Action space
+    ## Action Space
     {ACTION}
 
-    ## Observation space
+    ## Observation Space
     | key | shape | unit | what |
     |---|---|---|---|
     | `scan` | (beams,) float32 | m | the LRF's ranges; no return reads `lrf.range_max` |
     | `goal` | (2,) float32 | m | x, y of the goal in the station's frame |
 
-    ## Reward, info, start, end, arguments
+    ## Rewards, Information, Starting State, Episode End, Arguments
     As `gt_env/Reach-v0`.
 
-    ## Version history
+    ## Version History
     {VERSIONS}
     """
 

@@ -25,6 +25,19 @@ def test_the_arena_is_registered():
 
 
 @pytest.mark.parametrize("env_id", IDS)
+def test_the_specification_has_the_sections_that_gymnasium_s_own_have(env_id):
+    sections = (
+        "Action Space", "Observation Space", "Rewards", "Information", "Starting State", "Episode End",
+        "Arguments", "Version History",
+    )  # fmt: skip
+    doc = gym.envs.registration.load_env_creator(gym.spec(env_id).entry_point).__doc__
+    headings = ", ".join(line[3:] for line in doc.replace("    ## ", "## ").splitlines() if line[:3] == "## ")
+
+    assert [headings.find(name) for name in sections] == sorted(headings.find(name) for name in sections)
+    assert all(name in headings for name in sections)
+
+
+@pytest.mark.parametrize("env_id", IDS)
 def test_gymnasium_finds_nothing_to_complain_about(env_id):
     env = gym.make(env_id).unwrapped
     with warnings.catch_warnings():
