@@ -166,9 +166,18 @@ def meet(
         env = surroundings(observes)
         if (policy.observation_space, policy.action_space) == (env.observation_space, env.action_space):
             return env, policy
-        seen.append(f"{env.observation_space} to {env.action_space}")
+        seen.append(f"{_words(env.observation_space)} to {_words(env.action_space)}")
         env.close()
     raise ConfigError(
-        f"POLICY {candidate.spec}: was trained for {policy.observation_space} to {policy.action_space}, the "
-        f"environment of {task} has {', or '.join(seen)}"
+        f"POLICY {candidate.spec}: was trained for {_words(policy.observation_space)} to "
+        f"{_words(policy.action_space)}, the environment of {task} has {', or '.join(seen)}"
     )
+
+
+def _words(space: gym.Space[Any]) -> str:
+    """A space on one line, however many bounds it has."""
+    if isinstance(space, gym.spaces.Dict):
+        return "{" + ", ".join(f"{key}: {_words(part)}" for key, part in space.items()) + "}"
+    if isinstance(space, gym.spaces.Box):
+        return f"Box({space.low.min():.4g}, {space.high.max():.4g}, {space.shape}, {space.dtype})"
+    return " ".join(str(space).split())

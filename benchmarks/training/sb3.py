@@ -34,7 +34,7 @@ torch.set_num_threads(1)  # networks this small lose time by more
 
 
 class _Watch(BaseCallback):
-    """Reports progress and saves checkpoints."""
+    """Reports progress, logs the reward's terms and saves checkpoints."""
 
     def __init__(self, folder: Path, every: int, progress: Progress) -> None:
         super().__init__()
@@ -46,6 +46,9 @@ class _Watch(BaseCallback):
 
     def _on_step(self) -> bool:
         self._progress(self.num_timesteps)
+        for info in self.locals["infos"]:
+            for name, value in info["reward_terms"].items():
+                self.logger.record_mean(f"reward/{name}", value)
         if self.num_timesteps - self._saved >= self._every:
             self._saved = self.num_timesteps
             save(self.model, self._folder)

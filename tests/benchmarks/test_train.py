@@ -69,6 +69,20 @@ def test_a_training_leaves_all_that_is_needed_to_go_on(algo, sb3, tmp_path):
         assert sb3.load(tmp_path / POLICY).num_timesteps == more
 
 
+def test_tensorboard_shows_the_reward_in_its_terms(sb3, tmp_path):
+    events = pytest.importorskip("tensorboard.backend.event_processing.event_accumulator")
+    tiny("ppo", 64).write(tmp_path)
+    sb3.train(tiny("ppo", 64), tmp_path, resume=False, jobs=1, progress=lambda n: None)
+    (log,) = (tmp_path / "tensorboard").rglob("events.*")
+    seen = events.EventAccumulator(str(log))
+    seen.Reload()
+
+    assert {"eval/mean_reward", "reward/progress", "reward/failure", "train/value_loss"} <= set(
+        seen.Tags()["scalars"]
+    )
+    assert [event.value for event in seen.Scalars("reward/time")] == pytest.approx([-0.02])
+
+
 @pytest.mark.slow
 def test_going_on_with_nothing_left_changes_nothing(sb3, tmp_path):
     run = tiny("ppo", 64)
@@ -129,8 +143,9 @@ def test_a_policy_whose_spaces_do_not_match_is_refused_with_both(sb3, tmp_path):
 
     meet(file, "reach", CONFIG, "lrf")[0].close()
     for candidate in (folder, file):
-        with pytest.raises(ConfigError, match=r"\(12,\).*environment of follow_path.*\(20,\)"):
+        with pytest.raises(ConfigError, match=r"\(12,\).*environment of follow_path.*\(20,\)") as refused:
             meet(candidate, "follow_path", CONFIG, "lrf")
+        assert "\n" not in str(refused.value)
 
 
 @pytest.mark.parametrize("task", TASKS)
