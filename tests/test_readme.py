@@ -22,13 +22,6 @@ def test_the_example_finds_the_robot(capsys):
     assert "gt pose" in capsys.readouterr().out
 
 
-def test_every_link_leads_somewhere():
-    links = re.findall(r"\]\((?!https?:)([^)#]+)", README.read_text())
-
-    assert links
-    assert [link for link in links if not (README.parent / link).exists()] == []
-
-
 def test_the_table_of_results_has_the_rows_and_columns_that_reports_fill():
     numbers = {"rmse_xy_mm": 3.14, "max_xy_mm": 15.0, "max_yaw_deg": 6.44}
     methods = ("thesis", "fused", "smooth")
