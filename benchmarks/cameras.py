@@ -12,8 +12,9 @@ from benchmarks.engines import Engine
 from benchmarks.experiments.cameras import CAMERAS, FULL, QUICK, Effort, Watched, camera_runs, watch
 from benchmarks.experiments.run import Run
 from benchmarks.metrics import Score, errors, score
-from benchmarks.parallel import SweepError, run_side_by_side
+from benchmarks.parallel import SweepError
 from benchmarks.rollout import Track, joined
+from benchmarks.sweep import sweep
 from estimators.calibration import DEG
 from estimators.poses import Array
 from gt_env.config import EnvConfig
@@ -97,30 +98,12 @@ def run_cameras(
     Raises:
         ClusterError: If the engine's cluster does not answer.
     """
-    tasks = [run for runs in plan.runs.values() for run in runs]
-    names = [f"camera {name}, run {i + 1}" for name, runs in plan.runs.items() for i in range(len(runs))]
-    failed, found = None, list[Watched | None]()
-    try:
-        found += run_side_by_side(
-            watch,
-            tasks,
-            [run.steps for run in tasks],
-            jobs=jobs,
-            label="cameras",
-            console=console,
-            names=names,
-            engine=engine,
-        )
-    except SweepError as error:
-        found, failed = error.results, error
-    left = iter(found)
-    by_camera = {name: [next(left) for _ in runs] for name, runs in plan.runs.items()}
-    whole = {name: [w for w in of if w is not None] for name, of in by_camera.items() if None not in of}
+    found = sweep(watch, plan.runs, jobs=jobs, label="cameras", console=console, engine=engine)
     return CameraScores(
         effort=plan.effort,
-        static={name: _scores(of[:-1], plan.methods) for name, of in whole.items()},
-        moving={name: _scores(of[-1:], plan.methods) for name, of in whole.items()},
-        failed=failed,
+        static={name: _scores(of[:-1], plan.methods) for name, of in found.groups.items()},
+        moving={name: _scores(of[-1:], plan.methods) for name, of in found.groups.items()},
+        failed=found.failed,
     )
 
 

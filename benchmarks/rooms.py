@@ -13,9 +13,10 @@ from benchmarks.engines import Engine
 from benchmarks.experiments.rooms import FULL, QUICK, SETTINGS, Effort, SettingRuns, setting_runs
 from benchmarks.experiments.scans import ScanFixes
 from benchmarks.metrics import Score
-from benchmarks.parallel import SweepError, run_side_by_side
+from benchmarks.parallel import SweepError
 from benchmarks.report.scores import ScanScore, honesty, scan_score, together
 from benchmarks.rollout import Rollout
+from benchmarks.sweep import sweep
 from benchmarks.validation import Task, carry_out
 from gt_env.config import EnvConfig
 
@@ -86,45 +87,34 @@ def run_rooms(plan: RoomPlan, *, jobs: int, console: Console, engine: Engine | N
     Raises:
         ClusterError: If the engine's cluster does not answer.
     """
-    tasks: dict[str, Task] = {}
+    groups: dict[str, Sequence[Task]] = {}
     for name, runs in plan.runs.items():
-        tasks |= {f"{name}, scans at {run.point}": run for run in runs.scans}
-        tasks |= {f"{name}, drive {i + 1}": run for i, run in enumerate(runs.drives)}
-    failed, found = None, list[Rollout | ScanFixes | None]()
-    try:
-        found += run_side_by_side(
-            carry_out,
-            list(tasks.values()),
-            [task.steps for task in tasks.values()],
-            jobs=jobs,
-            label="rooms",
-            console=console,
-            names=list(tasks),
-            engine=engine,
-        )
-    except SweepError as error:
-        found, failed = error.results, error
-    left = iter(found)
-    by_setting = {
-        name: ([next(left) for _ in runs.scans], [next(left) for _ in runs.drives])
-        for name, runs in plan.runs.items()
-    }
+        groups |= {_scans(name): runs.scans, _drives(name): runs.drives}
+    found = sweep(carry_out, groups, jobs=jobs, label="rooms", console=console, engine=engine)
     rng = np.random.default_rng(plan.seed)
     return RoomScores(
         effort=plan.effort,
         settings={
-            name: _score(plan.runs[name], scans, drives, plan.methods, rng)
-            for name, (scans, drives) in by_setting.items()
-            if None not in scans and None not in drives
+            name: _score(runs, found.groups[_scans(name)], found.groups[_drives(name)], plan.methods, rng)
+            for name, runs in plan.runs.items()
+            if {_scans(name), _drives(name)} <= set(found.groups)
         },
-        failed=failed,
+        failed=found.failed,
     )
+
+
+def _scans(setting: str) -> str:
+    return f"{setting}, scans"
+
+
+def _drives(setting: str) -> str:
+    return f"{setting}, drives"
 
 
 def _score(
     runs: SettingRuns,
-    scans: Sequence[Rollout | ScanFixes | None],
-    drives: Sequence[Rollout | ScanFixes | None],
+    scans: Sequence[Rollout | ScanFixes],
+    drives: Sequence[Rollout | ScanFixes],
     methods: tuple[str, ...],
     rng: np.random.Generator,
 ) -> RoomScore:

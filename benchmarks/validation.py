@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -17,15 +17,20 @@ from benchmarks.experiments.run import Run, simulate
 from benchmarks.experiments.scans import ScanFixes, ScanRun, measure_scans, scan_runs
 from benchmarks.experiments.static import static_runs
 from benchmarks.experiments.stress import stress_runs
-from benchmarks.parallel import SweepError, run_side_by_side
+from benchmarks.parallel import SweepError
 from benchmarks.published import SAMPLES
 from benchmarks.rollout import Rollout, joined
+from benchmarks.sweep import sweep
 from gt_env.config import EnvConfig
 
 Task = Run | Course | ScanRun
 """What one process carries out at a time."""
 STILL, DITHERED = "still", "dithered"
 """Robots at rest before a camera at rest, and before one that sweeps a little."""
+STATIC, REST, DRIVING, STRESS, MOVING, SCANS = (
+    "static", "at rest", "driving", "stress", "moving", "scans"
+)  # fmt: skip
+"""Kinds of runs, in messages."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -166,64 +171,43 @@ def run_validation(plan: Plan, *, jobs: int, console: Console, engine: Engine | 
         ClusterError: If the engine's cluster does not answer.
         SweepError: If too much failed for a report.
     """
-    tasks = _tasks(plan)
-    failed = None
-    results: list[Rollout | ScanFixes | None]
-    try:
-        results = [
-            *run_side_by_side(
-                carry_out,
-                list(tasks.values()),
-                [task.steps for task in tasks.values()],
-                jobs=jobs,
-                label="simulating",
-                console=console,
-                names=list(tasks),
-                engine=engine,
-            )
-        ]
-    except SweepError as error:
-        results, failed = error.results, error
-    rollouts = {n: r for n, r in zip(tasks, results, strict=True) if isinstance(r, Rollout)}
-    fixes = {n: r for n, r in zip(tasks, results, strict=True) if isinstance(r, ScanFixes)}
+    found = sweep(carry_out, _groups(plan), jobs=jobs, label="simulating", console=console, engine=engine)
 
-    def complete(name: str, runs: Sequence[Run | Course]) -> tuple[Rollout, ...]:
-        of = [rollouts[n] for i in range(len(runs)) if (n := _numbered(name, i)) in rollouts]
-        return tuple(of) if len(of) == len(runs) else ()
+    def rollouts(kind: str, names: Iterable[str]) -> dict[str, tuple[Rollout, ...]]:
+        of = {name: found.groups.get(_group(kind, name), ()) for name in names}
+        return {name: tuple(r for r in rs if isinstance(r, Rollout)) for name, rs in of.items() if rs}
 
-    static = {p: complete(f"static {p}", runs) for p, runs in plan.static.items()}
+    fixes = {p: found.groups.get(_group(SCANS, p), ()) for p in plan.scans}
     validation = Validation(
         plan=plan,
-        static={p: joined(of) for p, of in static.items() if of},
-        moving={d: rollouts[f"moving {d}"] for d in plan.moving if f"moving {d}" in rollouts},
-        scans={p: fixes[f"scans {p}"] for p in plan.scans if f"scans {p}" in fixes},
-        rest={k: of for k, runs in plan.rest.items() if (of := complete(f"at rest, {k}", runs))},
-        driving=complete("driving", plan.driving),
-        stress={k: of for k, runs in plan.stress.items() if (of := complete(f"stress, {k}", runs))},
-        failed=failed,
+        static={p: joined(of) for p, of in rollouts(STATIC, plan.static).items()},
+        moving={d: of for d, (of,) in rollouts(MOVING, plan.moving).items()},
+        scans={p: of[0] for p, of in fixes.items() if of and isinstance(of[0], ScanFixes)},
+        rest=rollouts(REST, plan.rest),
+        driving=rollouts(DRIVING, [""]).get("", ()),
+        stress=rollouts(STRESS, plan.stress),
+        failed=found.failed,
     )
-    if failed is not None and not (validation.static and validation.moving):
-        raise failed
+    if found.failed is not None and not (validation.static and validation.moving):
+        raise found.failed
     return validation
 
 
-def _tasks(plan: Plan) -> dict[str, Task]:
-    """Every task by its name."""
-    groups: dict[str, Sequence[Task]] = {
-        **{f"static {p}": runs for p, runs in plan.static.items()},
-        **{f"at rest, {kind}": runs for kind, runs in plan.rest.items()},
-        "driving": plan.driving,
-        **{f"stress, {kind}": runs for kind, runs in plan.stress.items()},
+def _groups(plan: Plan) -> dict[str, Sequence[Task]]:
+    """What is carried out, by kind and name."""
+    kinds: dict[str, Mapping[str, Sequence[Task]]] = {
+        STATIC: plan.static,
+        REST: plan.rest,
+        DRIVING: {"": plan.driving},
+        STRESS: plan.stress,
+        MOVING: {drive: (run,) for drive, run in plan.moving.items()},
+        SCANS: {point: (run,) for point, run in plan.scans.items()},
     }
-    return {
-        **{_numbered(name, i): run for name, runs in groups.items() for i, run in enumerate(runs)},
-        **{f"moving {drive}": run for drive, run in plan.moving.items()},
-        **{f"scans {p}": run for p, run in plan.scans.items()},
-    }
+    return {_group(kind, name): runs for kind, of in kinds.items() for name, runs in of.items()}
 
 
-def _numbered(name: str, i: int) -> str:
-    return f"{name}, run {i + 1}"
+def _group(kind: str, name: str) -> str:
+    return f"{kind}, {name}" if name else kind
 
 
 def carry_out(task: Task, on_step: Callable[[], None] | None = None) -> Rollout | ScanFixes:
