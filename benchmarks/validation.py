@@ -11,7 +11,7 @@ from rich.console import Console
 from benchmarks.driving import DRIVES
 from benchmarks.engines import Engine
 from benchmarks.experiments.course import Course, follow
-from benchmarks.experiments.moving import FURTHER, moving_runs
+from benchmarks.experiments.moving import FURTHER, blind_runs, moving_runs
 from benchmarks.experiments.random_poses import dithered, drive_runs, rest_runs
 from benchmarks.experiments.run import Run, simulate
 from benchmarks.experiments.scans import ScanFixes, ScanRun, measure_scans, scan_runs
@@ -27,8 +27,8 @@ Task = Run | Course | ScanRun
 """What one process carries out at a time."""
 STILL, DITHERED = "still", "dithered"
 """Robots at rest before a camera at rest, and before one that sweeps a little."""
-STATIC, REST, DRIVING, STRESS, MOVING, SCANS = (
-    "static", "at rest", "driving", "stress", "moving", "scans"
+STATIC, REST, DRIVING, STRESS, MOVING, ALONE, SCANS = (
+    "static", "at rest", "driving", "stress", "moving", "without camera", "scans"
 )  # fmt: skip
 """Kinds of runs, in messages."""
 
@@ -39,6 +39,7 @@ class Effort:
 
     Attributes:
         samples: Per test point.
+        placements: How often the target is placed anew at each; the thesis did it once.
         single_scans: Per test point, each of a target placed anew.
         joint_scans: Groups of scans per test point.
         at_rest: Robots at random poses before a camera at rest.
@@ -49,6 +50,7 @@ class Effort:
     """
 
     samples: int
+    placements: int
     single_scans: int
     joint_scans: int
     at_rest: int
@@ -60,6 +62,7 @@ class Effort:
 
 FULL = Effort(
     samples=SAMPLES,
+    placements=10,
     single_scans=4000,
     joint_scans=30,
     at_rest=50,
@@ -70,12 +73,13 @@ FULL = Effort(
 )
 QUICK = Effort(
     samples=50,
+    placements=5,
     single_scans=100,
     joint_scans=2,
-    at_rest=4,
+    at_rest=3,
     at_rest_dithered=2,
     driving=4,
-    longest_drive=10.0,
+    longest_drive=8.0,
     stress=1,
 )
 
@@ -91,6 +95,7 @@ class Plan:
         effort: How much.
         static: Runs by test point, one per placement.
         moving: Runs by drive.
+        alone: Some of these without a camera.
         scans: Single scans by test point; empty if there is nothing to compare with.
         rest: Robots at random poses, `STILL` and perhaps `DITHERED`.
         driving: Robots that drive about at random.
@@ -107,6 +112,7 @@ class Plan:
     rest: dict[str, tuple[Run, ...]]
     driving: tuple[Run, ...]
     stress: dict[str, tuple[Course, ...]] = field(default_factory=dict)
+    alone: dict[str, Run] = field(default_factory=dict)
 
     @property
     def samples(self) -> int:
@@ -124,6 +130,7 @@ class Validation:
     plan: Plan
     static: dict[str, Rollout]
     moving: dict[str, Rollout]
+    alone: dict[str, Rollout] = field(default_factory=dict)
     scans: dict[str, ScanFixes] = field(default_factory=dict)
     rest: dict[str, tuple[Rollout, ...]] = field(default_factory=dict)
     driving: tuple[Rollout, ...] = ()
@@ -143,19 +150,21 @@ def plan_validation(
     seeds = np.random.SeedSequence(seed).spawn(8)
     for_static, for_moving, for_further, for_scans, for_rest, for_dithered, for_driving, for_stress = seeds
     swept = dithered(config)
+    moving = moving_runs(
+        config,
+        methods,
+        for_moving.generate_state(len(DRIVES)).tolist(),
+        for_further.generate_state(len(FURTHER)).tolist(),
+        effort.longest_drive,
+    )
     return Plan(
         config=config,
         methods=methods,
         seed=seed,
         effort=effort,
-        static=static_runs(config, methods, effort.samples, for_static),
-        moving=moving_runs(
-            config,
-            methods,
-            for_moving.generate_state(len(DRIVES)).tolist(),
-            for_further.generate_state(len(FURTHER)).tolist(),
-            effort.longest_drive,
-        ),
+        static=static_runs(config, methods, effort.samples, effort.placements, for_static),
+        moving=moving,
+        alone=blind_runs(moving),
         scans=scan_runs(config, effort.single_scans, effort.joint_scans, for_scans),
         rest={STILL: rest_runs(config, methods, effort.at_rest, for_rest)}
         | ({DITHERED: rest_runs(swept, methods, effort.at_rest_dithered, for_dithered)} if swept else {}),
@@ -182,6 +191,7 @@ def run_validation(plan: Plan, *, jobs: int, console: Console, engine: Engine | 
         plan=plan,
         static={p: joined(of) for p, of in rollouts(STATIC, plan.static).items()},
         moving={d: of for d, (of,) in rollouts(MOVING, plan.moving).items()},
+        alone={d: of for d, (of,) in rollouts(ALONE, plan.alone).items()},
         scans={p: of[0] for p, of in fixes.items() if of and isinstance(of[0], ScanFixes)},
         rest=rollouts(REST, plan.rest),
         driving=rollouts(DRIVING, [""]).get("", ()),
@@ -201,6 +211,7 @@ def _groups(plan: Plan) -> dict[str, Sequence[Task]]:
         DRIVING: {"": plan.driving},
         STRESS: plan.stress,
         MOVING: {drive: (run,) for drive, run in plan.moving.items()},
+        ALONE: {drive: (run,) for drive, run in plan.alone.items()},
         SCANS: {point: (run,) for point, run in plan.scans.items()},
     }
     return {_group(kind, name): runs for kind, of in kinds.items() for name, runs in of.items()}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shlex
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 from rich.console import Console
@@ -65,13 +65,10 @@ def validate(
 ) -> None:
     """Repeat the thesis's validation beside its published numbers, and go beyond it: limits, honesty, other methods."""
     from benchmarks.cameras import plan_cameras, run_cameras
-    from benchmarks.report.cameras import camera_tables
-    from benchmarks.report.every_table import every_table
-    from benchmarks.report.rooms import room_tables
     from benchmarks.report.scores import score_validation
     from benchmarks.report.setup import describe, validate_command
     from benchmarks.report.terminal import rich_table
-    from benchmarks.report.write import write_numbers, write_page
+    from benchmarks.report.write import Outcome, write_numbers, write_page
     from benchmarks.rollout import watched_arena
     from benchmarks.rooms import plan_rooms, run_rooms
     from benchmarks.validation import plan_validation, run_validation
@@ -86,34 +83,31 @@ def validate(
     room_plan = plan_rooms(settings, methods, seed=seed, quick=quick) if rooms else None
     watched_arena(settings, methods).close()  # what is wrong with the set-up is said here, not by a worker
     console = Console(emoji=False)
-    validation = run_validation(plan, jobs=jobs, console=console, engine=place)
-    compared = None
-    if camera_plan is not None and validation.failed is None:
-        compared = run_cameras(camera_plan, jobs=jobs, console=console, engine=place)
-    failed = validation.failed or (compared.failed if compared else None)
-    elsewhere = None
-    if room_plan is not None and failed is None:
-        elsewhere = run_rooms(room_plan, jobs=jobs, console=console, engine=place)
-        failed = elsewhere.failed
-    scores = score_validation(validation)
+    running: dict[str, Any] = {"jobs": jobs, "console": console, "engine": place}
+    validation = run_validation(plan, **running)
+    whole = validation.failed is None
+    compared = run_cameras(camera_plan, **running) if camera_plan is not None and whole else None
+    whole = whole and (compared is None or compared.failed is None)
+    elsewhere = run_rooms(room_plan, **running) if room_plan is not None and whole else None
+    outcome = Outcome(
+        validation=validation, scores=score_validation(validation), cameras=compared, rooms=elsewhere
+    )
     command = validate_command(
         config, overrides or [], seed, methods, quick=quick, cameras=cameras, stress=stress, rooms=rooms
     )
     command += "" if calibration is None else f" --calibration {shlex.quote(str(calibration))}"
     setup = describe(plan, command)
-    if failed is not None:
+    if outcome.failed is not None:
         # What was simulated is kept; the tables and figures want all of it.
-        setup["failed"] = {failure.task: failure.reason for failure in failed.failures}
+        setup["failed"] = {failure.task: failure.reason for failure in outcome.failed.failures}
         with staged(out) as folder:
-            write_numbers(folder, scores, setup, compared, elsewhere)
-        raise failed
-    tables = every_table(scores) + (room_tables(elsewhere) if elsewhere else [])
-    tables += camera_tables(compared) if compared else []
+            write_numbers(folder, outcome, setup)
+        raise outcome.failed
     with staged(out) as folder:
-        report = write_numbers(folder, scores, setup, compared, elsewhere)
+        report = write_numbers(folder, outcome, setup)
         if not no_figures:
-            report = write_page(folder, validation, scores, tables, setup, console, compared)
-    for table in tables:
+            report = write_page(folder, outcome, setup, console)
+    for table in outcome.tables():
         console.print(rich_table(table))
     console.print(str(out / report), soft_wrap=True, highlight=False, markup=False)
 

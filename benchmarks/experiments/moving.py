@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Final
 
@@ -17,6 +17,10 @@ EIGHT_PATH: Final = "wide-eight"
 """Of `benchmarks.paths`: as far as the room allows, as validation looks at all of it."""
 SWEPT_SPIN: Final = "spin-dithered"
 """Turning on the spot before a camera that sweeps a little."""
+TRAVELS: Final = ("path", "tour", EIGHT)
+"""Drives that go somewhere, which are summed up together."""
+BLIND_METHODS: Final = ("lrf", "smooth-lrf")
+"""Methods that do without the camera."""
 FURTHER: Final = (EIGHT, SWEPT_SPIN)
 """Drives that the thesis did not make."""
 
@@ -52,6 +56,19 @@ def moving_runs(
     if longest is not None:
         runs = {name: shortened(run, longest) for name, run in runs.items()}
     return runs
+
+
+def blind_runs(runs: Mapping[str, Run]) -> dict[str, Run]:
+    """The drives that go somewhere once more without a camera, with the same noise of the LRF; none if it was off."""
+    return {
+        name: replace(
+            runs[name],
+            config=load_config(runs[name].config, {"camera.enabled": False}),
+            methods=BLIND_METHODS,
+        )
+        for name in TRAVELS
+        if runs[name].config.camera.enabled and runs[name].config.lrf.enabled
+    }
 
 
 def driven(name: str, config: EnvConfig, methods: tuple[str, ...], seed: int) -> Run:

@@ -61,6 +61,7 @@ class ScanFixes:
         single_nees: (N,) normalised by the fixes' covariances.
         joint: (G, 2) of `TOGETHER` scans [m].
         joint_nees: (G,) likewise.
+        joint_square: (G,) square distances to the truth that their covariances state [m^2].
     """
 
     limit: OneScanLimit
@@ -69,6 +70,7 @@ class ScanFixes:
     single_nees: Array
     joint: Array
     joint_nees: Array
+    joint_square: Array
 
 
 def scan_runs(
@@ -120,7 +122,7 @@ def measure_scans(run: ScanRun, on_step: Callable[[], None] | None = None) -> Sc
     origin = np.array([run.config.lrf.position[0], run.config.lrf.position[1]])
     along = (np.array(run.point) - origin) / math.dist(run.point, origin)
     axes = np.array([along, [-along[1], along[0]]])
-    single, single_nees, joint, joint_nees = [], [], [], []
+    single, single_nees, joint, joint_nees, joint_square = [], [], [], [], []
     for i, position in enumerate(_positions(run, run.singles, origin)):
         error, square = _error(model.measure(take(position)), position)
         single.append(error)
@@ -128,9 +130,11 @@ def measure_scans(run: ScanRun, on_step: Callable[[], None] | None = None) -> Sc
         if on_step is not None and i % PER_STEP == PER_STEP - 1:
             on_step()
     for position in _positions(run, run.groups, origin):
-        error, square = _error(model.joint([take(position) for _ in range(TOGETHER)]), position)
+        fix = model.joint([take(position) for _ in range(TOGETHER)])
+        error, square = _error(fix, position)
         joint.append(error)
         joint_nees.append(square)
+        joint_square.append(math.nan if fix is None else float(np.trace(fix.covariance)))
         if on_step is not None:
             on_step()
     return ScanFixes(
@@ -140,6 +144,7 @@ def measure_scans(run: ScanRun, on_step: Callable[[], None] | None = None) -> Sc
         single_nees=np.array(single_nees),
         joint=np.array(joint).reshape(-1, 2),
         joint_nees=np.array(joint_nees),
+        joint_square=np.array(joint_square),
     )
 
 

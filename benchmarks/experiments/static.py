@@ -12,9 +12,6 @@ from estimators.poses import Pose2
 from gt_env.config import EnvConfig
 from gt_env.config.schema import pose_problem
 
-PLACEMENTS = 10
-"""How often the target is placed anew at each point; the thesis did it once."""
-
 
 def static_points(config: EnvConfig) -> dict[str, Pose2]:
     """The points of table 5.1, moved to the same places of the bounding box where the room is another.
@@ -33,7 +30,7 @@ def static_points(config: EnvConfig) -> dict[str, Pose2]:
 
 
 def static_runs(
-    config: EnvConfig, methods: tuple[str, ...], samples: int, seed: np.random.SeedSequence
+    config: EnvConfig, methods: tuple[str, ...], samples: int, placements: int, seed: np.random.SeedSequence
 ) -> dict[str, tuple[Run, ...]]:
     """Several runs per test point, together `samples` environment steps without a command.
 
@@ -42,12 +39,12 @@ def static_runs(
     not that of one raster.
     """
     points = static_points(config)
-    still = np.zeros((samples // PLACEMENTS, 2))
-    seeds = iter(seed.generate_state(len(points) * PLACEMENTS).tolist())
+    still = np.zeros((samples // placements, 2))
+    seeds = iter(seed.generate_state(len(points) * placements).tolist())
     return {
         name: tuple(
             Run(config=config, methods=methods, pose=pose, actions=still, seed=next(seeds))
-            for _ in range(PLACEMENTS)
+            for _ in range(placements)
         )
         for name, pose in points.items()
     }

@@ -8,7 +8,7 @@ from typing import Any
 from benchmarks.cameras import CameraScore, CameraScores
 from benchmarks.experiments.cameras import CAMERAS
 from benchmarks.report.scores import DEGREES, MM, times
-from benchmarks.report.tables import Table, number
+from benchmarks.report.tables import Table, angle, number
 
 WHY = (
     "The positions are the same before every camera: they come from the LRF alone. The headings differ by"
@@ -58,20 +58,22 @@ def camera_tables(scores: CameraScores) -> list[Table]:
 
 
 def _table(title: str, scores: dict[str, dict[str, CameraScore]], note: str) -> Table:
+    several = any(len(of) > 1 for of in scores.values())
     rows = []
     for camera, of in scores.items():
         for method, found in of.items():
             rows.append(
                 (
-                    camera if len(of) == 1 else f"{camera}, {method}",
+                    *((camera, method) if several else (camera,)),
                     number(times(found.score.rmse_xy, MM), 1),
-                    number(times(found.score.mae[2], DEGREES), 2),
-                    number(times(found.score.largest[2], DEGREES), 1),
+                    angle(found.score.mae[2]),
+                    angle(found.score.largest[2]),
                     number(times(found.beyond, 100), 1),
                     number(times(found.without_heading, 100), 1),
                 )
             )
-    head = ("camera", "RMSE xy [mm]", "MAE angle [deg]", "max angle [deg]", "> 10° [%]", "none [%]")
+    numbers = ("RMSE xy [mm]", "MAE angle [deg]", "max angle [deg]", "> 10° [%]", "none [%]")
+    head = ("camera", "method", *numbers) if several else ("camera", *numbers)
     return Table(title=title, head=head, rows=tuple(rows), note=note, section="cameras")
 
 

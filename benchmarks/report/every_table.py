@@ -2,18 +2,35 @@
 
 from __future__ import annotations
 
+from benchmarks.cameras import CameraScores
+from benchmarks.report.cameras import camera_tables
 from benchmarks.report.consistency import consistency_tables
+from benchmarks.report.goal import Goal, goal_table
+from benchmarks.report.rooms import room_tables
 from benchmarks.report.scores import Scores
-from benchmarks.report.summary_table import drive_table, limit_table, stress_table, summary_table
+from benchmarks.report.summary_table import blind_table, drive_table, limit_table, stress_table, summary_table
 from benchmarks.report.tables import Table, all_tables
+from benchmarks.rooms import RoomScores
 
 
-def every_table(scores: Scores) -> list[Table]:
-    """Those of chapter 5, then limits, consistency and harder drives as far as there are any, last the summary."""
+def every_table(
+    scores: Scores,
+    rooms: RoomScores | None = None,
+    cameras: CameraScores | None = None,
+    goals: list[Goal] | None = None,
+) -> list[Table]:
+    """Those of chapter 5, then what else was done, last the summary and how it compares with the targets."""
     tables = [*all_tables(scores), drive_table(scores)]
+    if scores.alone:
+        tables.append(blind_table(scores))
     if scores.scans:
         tables.append(limit_table(scores))
     tables += consistency_tables(scores)
     if any(scores.stress.values()):
         tables.append(stress_table(scores))
-    return [*tables, summary_table(scores)]
+    if rooms is not None:
+        tables += room_tables(rooms)
+    if cameras is not None:
+        tables += camera_tables(cameras)
+    tables.append(summary_table(scores))
+    return [*tables, goal_table(goals)] if goals else tables

@@ -12,7 +12,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from benchmarks.published import thesis_average_mae
-from benchmarks.report.plates import Plate
+from benchmarks.report.gallery.plate import Plate
 from benchmarks.report.scores import MM, TO_ERROR_UNITS, Scores, scaled, times
 from benchmarks.report.tables import NONE, Table
 

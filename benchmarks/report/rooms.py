@@ -42,15 +42,15 @@ def room_tables(scores: RoomScores) -> list[Table]:
             section="rooms",
         ),
         Table(
-            title=f"Other rooms, targets and rangefinders: {scores.effort.drives} robots that drive about at random",
+            title=f"The same: robots that drive about at random ({scores.effort.drives} each)",
             head=("", "method", *SCORED, "honest", "inside 95 % [%]"),
             rows=tuple(
                 (name, method, *score_cells(s)[:-1], *honest_cells(of.honesty.get(method)))
                 for name, of in scores.settings.items()
                 for method, s in of.driving.items()
             ),
-            note=SAME + "NEES: mean over runs, one sample of each; honest: what that of an honest covariance lies in, "
-            "998 times in 1000.",
+            note=SAME + "heading: mean absolute error. NEES: mean over runs, one sample of each; honest: between what "
+            "that of an honest covariance lies, 998 times in 1000.",
             section="rooms",
         ),
     ]  # fmt: skip

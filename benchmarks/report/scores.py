@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from benchmarks.consistency import Consistency, Whiteness, consistency, whiteness
-from benchmarks.experiments.moving import EIGHT
+from benchmarks.experiments.moving import BLIND_METHODS, TRAVELS
 from benchmarks.experiments.scans import ScanFixes
 from benchmarks.hindsight import HINDSIGHT, KINDS
 from benchmarks.limits import OneScanLimit
@@ -33,8 +33,6 @@ TO_ERROR_UNITS = (MM, MM, DEGREES)
 """From [m, m, rad] to [mm, mm, deg]."""
 
 Triple = tuple[float | None, ...]
-TRAVELS: Final = ("path", "tour", EIGHT)
-"""Drives that go somewhere, which are summed up together."""
 BEFORE_END: Final = 1.0
 """Samples for the consistency end so long before a run does, so that a method that looks back has something to [s]."""
 
@@ -51,6 +49,7 @@ class ScanScore:
         nees: Mean over one scan's fixes; 2 for an honest covariance.
         joint_rmse: Likewise of many scans of a target at rest together [m].
         joint_nees: Likewise.
+        joint_stated: What their covariances say that it should be [m]; with a NEES of 2 it is the limit.
         n: How many single scans.
         groups: How many groups of scans.
     """
@@ -62,6 +61,7 @@ class ScanScore:
     nees: float | None
     joint_rmse: float | None
     joint_nees: float | None
+    joint_stated: float | None
     n: int
     groups: int
 
@@ -80,6 +80,8 @@ class Scores:
         spreads: There as well.
         moving: By drive.
         travels: Over all `TRAVELS`.
+        alone: On these, of methods that do without the camera; by method and then by drive.
+        alone_travels: Likewise over all of them.
         scans: Of scans alone, by test point.
         rest: After standing at random poses for a while, by method and then by what the camera did.
         consistency: By situation and then by method; methods that state no covariance are left out.
@@ -92,6 +94,8 @@ class Scores:
     spreads: dict[str, dict[str, Spread]]
     moving: dict[str, dict[str, Score]]
     travels: dict[str, Score]
+    alone: dict[str, dict[str, Score]]
+    alone_travels: dict[str, Score]
     scans: dict[str, ScanScore]
     rest: dict[str, dict[str, Score]]
     consistency: dict[str, dict[str, Consistency]]
@@ -118,6 +122,7 @@ def score_validation(validation: Validation) -> Scores:
     """Score every track."""
     v, methods = validation, validation.plan.methods
     travels = [v.moving[d] for d in TRAVELS if d in v.moving]
+    blind = BLIND_METHODS if v.alone else ()
     situations = {f"rest-{kind}": of for kind, of in v.rest.items()}
     if v.driving:
         situations["driving"] = v.driving
@@ -136,6 +141,8 @@ def score_validation(validation: Validation) -> Scores:
         spreads={m: {p: spread(r.tracks[m]) for p, r in v.static.items()} for m in methods},
         moving={m: {d: score(r.tracks[m], r.t) for d, r in v.moving.items()} for m in methods},
         travels={m: together(travels, m) for m in methods},
+        alone={m: {d: score(r.tracks[m], r.t) for d, r in v.alone.items()} for m in blind},
+        alone_travels={m: together(list(v.alone.values()), m) for m in blind},
         scans={p: scan_score(fixes) for p, fixes in v.scans.items()},
         rest={m: {kind: _last(of, m) for kind, of in v.rest.items()} for m in methods},
         consistency=judged,
@@ -159,6 +166,12 @@ def together(rollouts: Sequence[Rollout], method: str) -> Score:
     return score(joined_tracks([r.tracks[method] for r in rollouts]), np.concatenate([r.t for r in rollouts]))
 
 
+def least_valid(scores: Scores, method: str) -> float | None:
+    """Share of the time from 2 s after the start with a valid answer, in the worst drive."""
+    shares = [s.valid_later for s in scores.moving[method].values() if s.valid_later is not None]
+    return min(shares, default=None)
+
+
 def _last(rollouts: Sequence[Rollout], method: str) -> Score:
     """Over the last sample of each run."""
     return score(joined_tracks([picked(r.tracks[method], slice(-1, None)) for r in rollouts]))
@@ -172,6 +185,7 @@ def _one_sample(rollout: Rollout, rng: np.random.Generator) -> int:
 
 def scan_score(fixes: ScanFixes) -> ScanScore:
     """Of fixes around one point."""
+    stated = _finite_mean(fixes.joint_square)
     return ScanScore(
         limit=fixes.limit,
         axes=fixes.axes,
@@ -180,6 +194,7 @@ def scan_score(fixes: ScanFixes) -> ScanScore:
         nees=_finite_mean(fixes.single_nees),
         joint_rmse=_rms(fixes.joint),
         joint_nees=_finite_mean(fixes.joint_nees),
+        joint_stated=None if stated is None else float(np.sqrt(stated)),
         n=len(fixes.single),
         groups=len(fixes.joint),
     )

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from typing import Any
 
 from benchmarks.experiments.scans import TOGETHER
 from benchmarks.metrics import Score
 from benchmarks.report.consistency import consistency_json, whiteness_json
+from benchmarks.report.goal import Goal, goals_json
 from benchmarks.report.scores import (
     DEGREES,
     MM,
@@ -25,11 +27,13 @@ def report_json(
     setup: dict[str, Any],
     cameras: dict[str, Any] | None = None,
     rooms: dict[str, Any] | None = None,
+    goals: Sequence[Goal] = (),
 ) -> str:
     """Strict JSON: `setup`, `static` by method and point, `moving` by drive and method, and what else there is.
 
     `limits` by test point; `rest` by what the camera did, `travels` (all drives that go somewhere together) and
-    `stress` by method, `stress_consistency` as `consistency`; `consistency`, `whiteness`, `cameras`, `rooms`.
+    `stress` by method, `stress_consistency` as `consistency`; `without_camera` as `moving`; `consistency`,
+    `whiteness`, `cameras`, `rooms`; `goals`, the documented targets and whether they are met.
 
     `mean`, `std`, `mode` are x, y, yaw in [m, m, deg]; `mae` in [mm, mm, deg]; `valid` is a share of the
     samples; `nees` is null where a method states no covariance, any number where nothing valid was said.
@@ -40,16 +44,20 @@ def report_json(
         "static": {method: _static(scores, method) for method in scores.methods},
         "moving": {d: {m: score_json(scores.moving[m][d]) for m in scores.methods} for d in drives},
     }
-    further = {
+    alone = next(iter(scores.alone.values()), {})
+    travels = scores.alone_travels | scores.travels
+    further: dict[str, Any] = {
         "limits": {point: limit_json(s) for point, s in scores.scans.items()},
         "rest": _by_kind(scores.rest),
-        "travels": {m: score_json(s) for m, s in scores.travels.items() if s.n},
+        "without_camera": {d: {m: score_json(of[d]) for m, of in scores.alone.items()} for d in alone},
+        "travels": {m: score_json(s) for m, s in travels.items() if s.n},
         "stress": _by_kind(scores.stress),
         "stress_consistency": consistency_json(scores.stress_honesty),
         "consistency": consistency_json(scores.consistency),
         "whiteness": whiteness_json(scores),
         "cameras": cameras,
         "rooms": rooms,
+        "goals": goals_json(goals),
     }
     report |= {key: value for key, value in further.items() if value}
     return json.dumps(report, indent=2, allow_nan=False) + "\n"
@@ -107,6 +115,7 @@ def limit_json(s: ScanScore) -> dict[str, Any]:
             "n": s.groups,
             "scans": TOGETHER,
             "rmse_xy_mm": times(s.joint_rmse, MM),
+            "stated_mm": times(s.joint_stated, MM),
             "nees": s.joint_nees,
         },
     }

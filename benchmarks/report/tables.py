@@ -202,3 +202,8 @@ def number(value: float | None, decimals: int) -> str:
         return NONE
     text = f"{value:.{decimals}f}"
     return text.lstrip("-") if not float(text) else text  # no minus zero
+
+
+def angle(value: float | None) -> str:
+    """A cell with an angle in degrees; small ones keep a digit that says something."""
+    return number(times(value, DEGREES), 2 if value is None or value * DEGREES >= 0.1 else 3)

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from rich.console import Console
 
 from benchmarks.cameras import CameraScores
+from benchmarks.parallel import SweepError
 from benchmarks.report.cameras import cameras_json
+from benchmarks.report.every_table import every_table
+from benchmarks.report.goal import Goal
+from benchmarks.report.goals import reached_goals
 from benchmarks.report.rooms import rooms_json
 from benchmarks.report.scores import Scores
 from benchmarks.report.summary import report_json
@@ -17,46 +22,75 @@ from benchmarks.rooms import RoomScores
 from benchmarks.validation import Validation
 
 
-def write_numbers(
-    folder: Path,
-    scores: Scores,
-    setup: dict[str, Any],
-    cameras: CameraScores | None = None,
-    rooms: RoomScores | None = None,
-) -> str:
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """Everything that a validation came to.
+
+    Attributes:
+        validation: What was planned and simulated.
+        scores: Of it.
+        rooms: Of other rooms, targets and rangefinders, if these were asked for.
+        cameras: Likewise of cameras.
+    """
+
+    validation: Validation
+    scores: Scores
+    rooms: RoomScores | None = None
+    cameras: CameraScores | None = None
+
+    @property
+    def failed(self) -> SweepError | None:
+        """The first part of which runs failed."""
+        parts = (self.validation, self.cameras, self.rooms)
+        return next((part.failed for part in parts if part is not None and part.failed), None)
+
+    def goals(self) -> list[Goal]:
+        """The documented targets beside what was reached."""
+        return reached_goals(self.validation.plan.config, self.scores, self.rooms)
+
+    def tables(self) -> list[Table]:
+        """In the order of the page."""
+        return every_table(self.scores, self.rooms, self.cameras, self.goals())
+
+
+def write_numbers(folder: Path, outcome: Outcome, setup: dict[str, Any]) -> str:
     """Write `report.json`; returns its name."""
-    compared = None if cameras is None else cameras_json(cameras)
-    elsewhere = None if rooms is None else rooms_json(rooms)
-    (folder / "report.json").write_text(report_json(scores, setup, compared, elsewhere), encoding="utf-8")
+    compared = None if outcome.cameras is None else cameras_json(outcome.cameras)
+    elsewhere = None if outcome.rooms is None else rooms_json(outcome.rooms)
+    # Where runs failed there is not enough to hold against targets.
+    goals = outcome.goals() if outcome.failed is None else []
+    text = report_json(outcome.scores, setup, compared, elsewhere, goals)
+    (folder / "report.json").write_text(text, encoding="utf-8")
     return "report.json"
 
 
-def write_page(
-    folder: Path,
-    validation: Validation,
-    scores: Scores,
-    tables: list[Table],
-    setup: dict[str, Any],
-    console: Console,
-    cameras: CameraScores | None = None,
-) -> str:
+def write_page(folder: Path, outcome: Outcome, setup: dict[str, Any], console: Console) -> str:
     """Write the figures and `report.html`; returns the page's name. Needs the extra `report`."""
     from benchmarks.experiments.cameras import camera_scenes
     from benchmarks.experiments.scenes import scenes
     from benchmarks.figures.style import paper, save_png
-    from benchmarks.report.camera_gallery import camera_plates
-    from benchmarks.report.gallery import plates
+    from benchmarks.report.gallery.cameras import camera_plates
+    from benchmarks.report.gallery.compared import room_plates, stress_plates
+    from benchmarks.report.gallery.further import further_plates
+    from benchmarks.report.gallery.thesis import thesis_plates
     from benchmarks.report.page import html_page
 
+    validation, scores = outcome.validation, outcome.scores
     config, seed = validation.plan.config, validation.plan.seed
-    shown = list(plates(validation, scores, scenes(config, seed)))
-    if cameras is not None:
-        shown += camera_plates(cameras, camera_scenes(config, seed))
+    shown = [
+        *thesis_plates(validation, scores, scenes(config, seed)),
+        *further_plates(validation, scores),
+        *stress_plates(scores),
+    ]
+    if outcome.rooms is not None:
+        shown += room_plates(outcome.rooms)
+    if outcome.cameras is not None:
+        shown += camera_plates(outcome.cameras, camera_scenes(config, seed))
     with console.status("drawing") as status:
         for plate in shown:
             status.update(f"drawing {plate.name}")
             with paper():
                 save_png(plate.draw(), folder / f"{plate.name}.png")
-    page = html_page(scores, tables, shown, folder, setup)
+    page = html_page(scores, outcome.tables(), shown, folder, setup)
     (folder / "report.html").write_text(page, encoding="utf-8")
     return "report.html"

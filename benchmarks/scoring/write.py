@@ -12,7 +12,7 @@ from typing import Any
 
 from rich.console import Console
 
-from benchmarks.report.plates import Plate
+from benchmarks.report.gallery.plate import Plate
 from benchmarks.report.scores import MM
 from benchmarks.report.tables import NONE, Table
 from benchmarks.scoring.checks import checked

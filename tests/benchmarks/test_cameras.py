@@ -146,7 +146,7 @@ def test_all_cameras_are_drawn_and_tabled(monkeypatch, tmp_path):
     pytest.importorskip("matplotlib")
     from benchmarks.experiments.cameras import camera_scenes
     from benchmarks.figures.style import paper, save_png
-    from benchmarks.report.camera_gallery import camera_plates
+    from benchmarks.report.gallery.cameras import camera_plates
 
     scores = compared(monkeypatch, tuple(CAMERAS), jobs=2)
     assert list(scores.static) == list(scores.moving) == list(CAMERAS)

@@ -3,76 +3,18 @@
 import io
 import json
 
-import numpy as np
 import pytest
+from fake_validation import METHODS, fake_validation
 
-from benchmarks.experiments.scans import ScanFixes
-from benchmarks.limits import OneScanLimit
 from benchmarks.report.every_table import every_table
 from benchmarks.report.scores import score_validation
 from benchmarks.report.setup import describe
 from benchmarks.report.summary import report_json
-from benchmarks.rollout import Rollout, Track
-from benchmarks.validation import Validation, plan_validation
-from estimators.calibration import DEG
-from gt_env.config import load_config
-
-METHODS = ("fused", "smooth")
-
-
-def watched(run, rng, sigma=0.004):
-    """A run that never happened: errors of 4 mm and 0.5 deg, as stated, and innovations as they should be."""
-    n = max(run.steps - 10, 60)
-    t = 1.0 + 0.1 * np.arange(n)
-    true = np.tile([0.0, 2.0, 0.5], (n, 1))
-    stated = np.diag((sigma**2, sigma**2, (0.5 * DEG) ** 2))
-    track = Track(
-        stamp=t,
-        true_pose=true,
-        gt_pose=true + rng.multivariate_normal(np.zeros(3), stated, n),
-        covariance=np.tile(stated, (n, 1, 1)),
-        valid=np.ones(n, bool),
-        yaw_valid=np.ones(n, bool),
-        states_covariance=True,
-    )
-    new = np.column_stack([t, rng.standard_normal((n, 2))])
-    return Rollout(
-        t=t,
-        true_pose=true,
-        tracks=dict.fromkeys(run.methods, track),
-        innovations={"fused": {"scan": new, "frame": new}},
-    )
-
-
-def fixes(run, rng):
-    error = rng.normal(0, 0.008, (run.singles, 2))
-    return ScanFixes(
-        limit=OneScanLimit(0.008, 0.008),
-        axes=np.eye(2),
-        single=error,
-        single_nees=np.sum(error**2, axis=1) / 0.008**2,
-        joint=rng.normal(0, 0.001, (run.groups, 2)),
-        joint_nees=np.full(run.groups, 2.0),
-    )
 
 
 @pytest.fixture(scope="module")
 def validation():
-    rng = np.random.default_rng(0)
-    plan = plan_validation(load_config("thesis"), METHODS, seed=0, quick=True, stress=True)
-
-    def all_of(groups):
-        return {name: tuple(watched(run, rng) for run in runs) for name, runs in groups.items()}
-
-    return Validation(
-        plan=plan,
-        static={name: watched(runs[0], rng) for name, runs in plan.static.items()},
-        moving={name: watched(run, rng) for name, run in plan.moving.items()},
-        scans={name: fixes(run, rng) for name, run in plan.scans.items()},
-        rest=all_of(plan.rest),
-        driving=all_of({"": plan.driving})[""],
-        stress=all_of(plan.stress),
-    )
+    return fake_validation()
 
 
 @pytest.fixture(scope="module")
@@ -134,10 +76,11 @@ def test_brackets_of_units_reach_the_terminal(validation):
 def test_every_figure_of_these_draws(validation, tmp_path):
     pytest.importorskip("matplotlib")
     from benchmarks.figures.style import paper, save_png
-    from benchmarks.report.further_gallery import further_plates
+    from benchmarks.report.gallery.compared import stress_plates
+    from benchmarks.report.gallery.further import further_plates
 
-    names = []
-    for plate in further_plates(validation, score_validation(validation)):
+    names, scores = [], score_validation(validation)
+    for plate in [*further_plates(validation, scores), *stress_plates(scores)]:
         with paper():
             save_png(plate.draw(), tmp_path / f"{plate.name}.png")
         names.append(plate.name)
@@ -148,5 +91,6 @@ def test_every_figure_of_these_draws(validation, tmp_path):
         "figure-of-eight-errors",
         "consistency",
         "innovations",
+        "stress",
     ]
     assert min(path.stat().st_size for path in tmp_path.iterdir()) > 10_000

@@ -118,12 +118,12 @@ def test_page_is_self_contained(tmp_path):
     pytest.importorskip("matplotlib")
     from rich.console import Console
 
-    from benchmarks.report.write import write_page
+    from benchmarks.report.write import Outcome, write_page
 
     result = validation(("thesis", "other"))
-    scores = score_validation(result)
+    outcome = Outcome(validation=result, scores=score_validation(result))
     setup = describe(result.plan, "gt-env validate")
-    name = write_page(tmp_path, result, scores, all_tables(scores), setup, Console(quiet=True))
+    name = write_page(tmp_path, outcome, setup, Console(quiet=True))
     page = (tmp_path / name).read_text(encoding="utf-8")
     assert "http" not in page
     assert "<script" not in page

@@ -1,4 +1,4 @@
-"""Every figure of a validation, with its file and its caption."""
+"""The figures of the thesis's chapters 4 and 5."""
 
 from __future__ import annotations
 
@@ -6,21 +6,20 @@ from collections.abc import Iterator
 from functools import partial
 
 from benchmarks.experiments.scenes import Scene
-from benchmarks.experiments.static import PLACEMENTS, static_points
+from benchmarks.experiments.static import static_points
 from benchmarks.figures.accuracy import accuracy_figure
 from benchmarks.figures.drives import map_figure, spin_figure, time_figure
 from benchmarks.figures.frame import frame_figure
 from benchmarks.figures.histograms import histogram_figure
 from benchmarks.figures.scans import array_figure, points_figure, scan_figure
 from benchmarks.published import THESIS
-from benchmarks.report.further_gallery import further_plates
-from benchmarks.report.plates import Plate
+from benchmarks.report.gallery.plate import Plate
 from benchmarks.report.scores import Scores
 from benchmarks.validation import Validation
 
 
-def plates(validation: Validation, scores: Scores, scenes: dict[str, Scene]) -> Iterator[Plate]:
-    """All figures in the order of the page."""
+def thesis_plates(validation: Validation, scores: Scores, scenes: dict[str, Scene]) -> Iterator[Plate]:
+    """In the order of the page."""
     yield Plate(
         name="accuracy",
         section="static",
@@ -31,7 +30,6 @@ def plates(validation: Validation, scores: Scores, scenes: dict[str, Scene]) -> 
     yield from _scan_plates(scenes)
     yield from _static_plates(validation)
     yield from _moving_plates(validation)
-    yield from further_plates(validation, scores)
 
 
 def _scan_plates(scenes: dict[str, Scene]) -> Iterator[Plate]:
@@ -90,7 +88,7 @@ def _scan_plates(scenes: dict[str, Scene]) -> Iterator[Plate]:
 
 
 def _static_plates(validation: Validation) -> Iterator[Plate]:
-    config = validation.plan.config
+    config, placements = validation.plan.config, validation.plan.effort.placements
     points = static_points(config)
     yield Plate(
         name="test-points",
@@ -104,7 +102,7 @@ def _static_plates(validation: Validation) -> Iterator[Plate]:
             name=f"histogram-{point}",
             section="static",
             repeats=f"5.{number}",
-            caption=f"Distribution of {len(rollout.t)} estimates at {point} in {PLACEMENTS} placements, each "
+            caption=f"Distribution of {len(rollout.t)} estimates at {point} in {placements} placements, each "
             "with a raster of pixels of its own; dashed, the mean that table 5.2 prints for its one.",
             draw=partial(histogram_figure, point, points[point], rollout.tracks, THESIS[point]),
         )

@@ -13,7 +13,7 @@ from benchmarks.figures.consistency import consistency_figure, whiteness_figure
 from benchmarks.figures.drives import map_figure
 from benchmarks.figures.limits import LARGER, limit_figure
 from benchmarks.figures.style import method_color
-from benchmarks.report.plates import Plate
+from benchmarks.report.gallery.plate import Plate
 from benchmarks.report.scores import Scores
 from benchmarks.validation import Validation
 

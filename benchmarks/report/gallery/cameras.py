@@ -8,7 +8,7 @@ from functools import partial
 from benchmarks.cameras import CameraScores
 from benchmarks.experiments.scenes import Scene
 from benchmarks.figures.cameras import camera_figure, grey_figure
-from benchmarks.report.plates import Plate
+from benchmarks.report.gallery.plate import Plate
 
 CAPTIONS = {"tiny": "tiny", "fast": "fast", "fast-noise": "fast, 2 grey levels of noise"}
 

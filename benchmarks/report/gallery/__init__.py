@@ -1,0 +1,1 @@
+"""The figures of a validation's report, with their files and captions."""

@@ -1,0 +1,126 @@
+"""One documented target beside what was reached, as a row of a table and as JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import inf, isinf
+from typing import Any
+
+from benchmarks.report.scores import DEGREES, MM, times
+from benchmarks.report.tables import NONE, Table, number
+
+NOTE = (
+    "heading: mean absolute error. NEES of pose, position and heading: mean over runs, one sample of each, and between "
+    "what that of an honest covariance lies 998 times in 1000. Harder drives and other rooms have targets too "
+    "(--stress, --rooms); a quick run has too few samples to judge by."
+)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Goal:
+    """Between what one or several numbers are to lie, and what they are.
+
+    Attributes:
+        what: Is meant.
+        method: Of the station.
+        unit: Of the numbers; `""` for none.
+        asked: Least and largest for each number.
+        reached: The numbers; None for one that could not be found.
+        decimals: Of the table.
+    """
+
+    what: str
+    method: str
+    unit: str
+    asked: tuple[tuple[float, float], ...]
+    reached: tuple[float | None, ...]
+    decimals: int
+
+    @property
+    def met(self) -> bool:
+        """Whether all of them do."""
+        pairs = zip(self.asked, self.reached, strict=True)
+        return all(value is not None and low <= value <= high for (low, high), value in pairs)
+
+
+def at_most(what: str, method: str, unit: str, most: float, reached: float | None, decimals: int) -> Goal:
+    """One number that is not to be exceeded."""
+    return Goal(
+        what=what, method=method, unit=unit, asked=((-inf, most),), reached=(reached,), decimals=decimals
+    )
+
+
+def millimetres(what: str, method: str, most: float, reached: float | None) -> Goal:
+    """A length [m]."""
+    return at_most(what, method, "mm", most * MM, times(reached, MM), 1)
+
+
+def degrees(what: str, method: str, most: float, reached: float | None) -> Goal:
+    """An angle [rad]."""
+    return at_most(
+        what, method, "deg", most * DEGREES, times(reached, DEGREES), 3 if most < 0.3 / DEGREES else 2
+    )
+
+
+def valid_share(what: str, method: str, least: float, reached: float | None) -> Goal:
+    """A share of the time."""
+    return Goal(
+        what=what, method=method, unit="%", asked=((100 * least, inf),), reached=(times(reached, 100),), decimals=1
+    )  # fmt: skip
+
+
+def goal_table(goals: Sequence[Goal]) -> Table:
+    """Asked and reached."""
+    met = sum(goal.met for goal in goals)
+    return Table(
+        title=f"Targets: {met} of {len(goals)} met",
+        head=("target", "method", "asked", "reached", "met"),
+        rows=tuple(
+            (goal.what, goal.method, _asked(goal), _reached(goal), "yes" if goal.met else "no")
+            for goal in goals
+        ),
+        note=NOTE,
+        section="summary",
+    )
+
+
+def goals_json(goals: Sequence[Goal]) -> list[dict[str, Any]]:
+    """`asked`: the least and the largest value of each number, null for no bound."""
+    return [
+        {
+            "what": goal.what,
+            "method": goal.method,
+            "unit": goal.unit,
+            "asked": [[None if isinf(v) else v for v in pair] for pair in goal.asked],
+            "reached": list(goal.reached),
+            "met": goal.met,
+        }
+        for goal in goals
+    ]
+
+
+def _asked(goal: Goal) -> str:
+    return "; ".join(_bounds(low, high, goal.decimals) for low, high in dict.fromkeys(goal.asked)) + _unit(
+        goal
+    )
+
+
+def _bounds(low: float, high: float, decimals: int) -> str:
+    if low == -inf:
+        return f"≤ {_plain(high)}"
+    return f"≥ {_plain(low)}" if high == inf else f"{low:.{decimals}f} to {high:.{decimals}f}"
+
+
+def _plain(value: float) -> str:
+    """As it was set, without what floating point adds."""
+    return f"{round(value, 6):g}"
+
+
+def _reached(goal: Goal) -> str:
+    known = any(value is not None for value in goal.reached)
+    return "; ".join(number(value, goal.decimals) for value in goal.reached) + _unit(goal) if known else NONE
+
+
+def _unit(goal: Goal) -> str:
+    return f" {goal.unit}" if goal.unit else ""

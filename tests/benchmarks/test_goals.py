@@ -1,0 +1,83 @@
+"""Documented targets beside what was reached: complete, judged rightly, and only where they apply."""
+
+import json
+
+import pytest
+from fake_validation import fake_validation
+
+from benchmarks.goals import TARGETS, targeted_preset
+from benchmarks.report.goal import Goal, goal_table, goals_json
+from benchmarks.report.goals import reached_goals
+from benchmarks.report.scores import score_validation
+from gt_env.config import load_config
+
+
+def goals(preset, sigma):
+    validation = fake_validation(preset, sigma)
+    return reached_goals(validation.plan.config, score_validation(validation))
+
+
+def named(found, what, method):
+    (goal,) = [g for g in found if g.what == what and g.method == method]
+    return goal
+
+
+@pytest.fixture(scope="module", params=TARGETS)
+def found(request):
+    return goals(request.param, 0.004)
+
+
+def test_all_that_was_simulated_is_held_against_its_target(found):
+    asked = {(g.what, g.method) for g in found}
+    drives = "path, tour, figure of eight"
+    assert len(asked) == len(found)
+    assert {
+        ("one scan: RMSE over its limit, worst point", "scans alone"),
+        ("100 scans together: RMSE", "scans alone"),
+        ("at rest after 10 s: RMSE", "fused"),
+        ("at rest after 10 s: heading, dithered", "fused"),
+        (f"{drives}: RMSE", "fused"),
+        (f"{drives}: RMSE", "smooth"),
+        (f"{drives}: RMSE", "lrf"),
+        (f"{drives}: RMSE", "smooth-lrf"),
+        (f"{drives}: heading, 99 %", "fused"),
+        ("turning on the spot: heading, dithered", "fused"),
+        ("valid from 2 s on, worst drive", "fused"),
+        ("slip: RMSE and heading, worse by", "smooth"),
+        ("whirl: valid from 2 s on", "fused"),
+        *((f"{kind}: inside the 95 % ellipse", "smooth") for kind in ("rest-still", "rest-dithered", "driving")),
+        *((f"{kind}: NEES of pose, position, heading", "fused") for kind in ("rest-still", "driving", "fast")),
+    } <= asked  # fmt: skip
+
+
+def test_an_error_meets_the_wide_lens_s_target_and_not_the_narrow_one_s():
+    what = "path, tour, figure of eight: RMSE"
+    wide, narrow = (named(goals(preset, 0.003), what, "fused") for preset in ("thesis", "narrow"))
+    assert wide.reached[0] == pytest.approx(3 * 2**0.5, rel=0.1)  # 3 mm in x and in y
+    assert wide.met
+    assert not narrow.met
+
+
+def test_targets_belong_to_presets_as_they_are_and_whatever_is_believed():
+    assert targeted_preset(load_config("narrow")) == "narrow"
+    assert targeted_preset(load_config("thesis", {"belief": {"lrf": {"range_bias": 0.01}}})) == "thesis"
+    assert targeted_preset(load_config("thesis", {"lrf.noise_sigma": 0.02})) is None
+    assert targeted_preset(load_config("simtwo")) is None
+
+
+@pytest.mark.parametrize(
+    ("asked", "reached", "met"),
+    [
+        ((0.0, 2.0), 2.0, True),
+        ((0.0, 2.0), 2.1, False),
+        ((95.0, float("inf")), 94.9, False),
+        ((0.0, 2.0), None, False),
+    ],
+)
+def test_a_goal_is_met_within_its_bounds_and_never_by_nothing(asked, reached, met):
+    goal = Goal(what="it", method="fused", unit="mm", asked=(asked,), reached=(reached,), decimals=1)
+    assert goal.met is met
+    table = goal_table([goal])
+    assert table.rows[0][-1] == ("yes" if met else "no")
+    assert table.title.startswith(f"Targets: {int(met)} of 1")
+    json.dumps(goals_json([goal]), allow_nan=False)
