@@ -61,14 +61,15 @@ class ModeFilter:
 
     def __init__(self, model: MotionModel) -> None:
         self.model = model
-        self._rest = np.array([m.at_rest for m in model.modes])
+        self._rest = np.flatnonzero([m.at_rest for m in model.modes])
         self._speeds = slice(YAW + 1, YAW + 1 + len(model.speed_sigmas))
-        self._stops = np.square([STOPPED[0]] * (len(model.speed_sigmas) - 1) + [STOPPED[1]])
+        self._stops = np.diag(np.square([STOPPED[0]] * (len(model.speed_sigmas) - 1) + [STOPPED[1]]))
+        self._eye = np.eye(model.size)
         self._densities = np.square([(m.acceleration, m.turning) for m in model.modes])
 
     def start(self, x: float, y: float, yaw: float) -> None:
         """Begin near a pose [m, m, rad] with next to nothing known, ready for the measurements that it came from."""
-        m, n = len(self._rest), self.model.size
+        m, n = len(self.model.modes), self.model.size
         self.x = np.zeros((m, n))
         self.x[:, :3] = x, y, yaw
         P = np.zeros((n, n))
@@ -87,7 +88,7 @@ class ModeFilter:
             x, F = self.model.step(self.x, dt)
             Q = self.model.noise(x, dt, self._densities)
             x[self._rest] = self.x[self._rest]
-            F[self._rest] = np.eye(self.model.size)
+            F[self._rest] = self._eye
             Q[self._rest] = 0.0
             Q[:, (0, 1, 2), (0, 1, 2)] += dt * CREEP
             self.x, self.P = x, F @ self.P @ F.transpose(0, 2, 1) + Q
@@ -124,7 +125,7 @@ class ModeFilter:
         PHt = self.P @ H.transpose(0, 2, 1)
         S = H @ PHt + R
         S_inverse = np.linalg.inv(S)
-        distance = (residual[:, None, :] @ S_inverse @ residual[:, :, None])[:, 0, 0]
+        distance = (residual * (S_inverse @ residual[:, :, None])[:, :, 0]).sum(axis=1)
         accepted = bool(distance.min() <= gate)
         innovation = self._mixed_innovation(residual, S, accepted)
         if not accepted:
@@ -132,7 +133,7 @@ class ModeFilter:
         K = PHt @ S_inverse
         self.x = self.x + (K @ residual[:, :, None])[:, :, 0]
         # Joseph's form keeps the covariance symmetric and positive.
-        A = np.eye(self.model.size) - K @ H
+        A = self._eye - K @ H
         self.P = A @ self.P @ A.transpose(0, 2, 1) + K @ R @ K.transpose(0, 2, 1)
         log_likelihood = -0.5 * (distance + np.log(np.linalg.det(S)))
         weights = self.weights * np.exp(log_likelihood - log_likelihood.max())
@@ -152,12 +153,10 @@ class ModeFilter:
         """
         chances = switching(self.model.modes, dt)
         speeds, P = self.x[:, self._speeds], self.P[:, self._speeds, self._speeds]
-        distance = np.einsum(
-            "mi,mi->m", speeds, np.linalg.solve(P + np.diag(self._stops), speeds[..., None])[..., 0]
-        )
+        distance = (speeds * np.linalg.solve(P + self._stops, speeds[..., None])[..., 0]).sum(axis=1)
         closed = chances[:, self._rest] * (1.0 - np.maximum(np.exp(-0.5 * distance), LEAST_OPEN))[:, None]
         chances[:, self._rest] -= closed
-        chances[np.diag_indices_from(chances)] += closed.sum(axis=1)
+        _diagonal(chances)[:] += closed.sum(axis=1)
         joint = chances * self.weights[:, None]
         weights = joint.sum(axis=0)
         self.x, self.P = _mixtures(joint / weights, self.x, self.P)
@@ -182,8 +181,13 @@ def switching(modes: tuple[Mode, ...], dt: float) -> Array:
     """
     ways, durations = _ways(modes)
     chances: Array = ways * -np.expm1(-dt / durations)[:, None]
-    chances[np.diag_indices(len(modes))] = 1.0 - chances.sum(axis=1)
+    _diagonal(chances)[:] = 1.0 - chances.sum(axis=1)
     return chances
+
+
+def _diagonal(square: Array) -> Array:
+    """View (n,) of the diagonal of a fresh array (n, n)."""
+    return square.reshape(-1)[:: len(square) + 1]
 
 
 @lru_cache

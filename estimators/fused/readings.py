@@ -80,8 +80,10 @@ class Reading(Protocol):
 def _target_of(states: Array, mount: Pose2) -> tuple[Array, Array]:
     """x, y of the target (M, 2) for states of the base, and how they turn with the yaw (M, 2)."""
     c, s = np.cos(states[:, YAW]), np.sin(states[:, YAW])
-    across = np.stack([-s * mount.x - c * mount.y, c * mount.x - s * mount.y], axis=1)
-    along = np.stack([c * mount.x - s * mount.y, s * mount.x + c * mount.y], axis=1)
+    along = np.empty((len(states), 2))
+    along[:, 0], along[:, 1] = c * mount.x - s * mount.y, s * mount.x + c * mount.y
+    across = np.empty_like(along)
+    across[:, 0], across[:, 1] = -along[:, 1], along[:, 0]
     return states[:, :2] + along, across
 
 
@@ -231,7 +233,7 @@ class MarkerReading:
         slopes = np.zeros((len(states), 2, n))
         slopes[:, 0, 0], slopes[:, 0, 1] = -ray[:, 1] / distance, ray[:, 0] / distance
         slopes[:, :, :2] -= seen.sensitivity[:, None] * ray[:, None, :]
-        slopes[:, :, YAW] = np.einsum("mki,mi->mk", slopes[:, :, :2], turn)
+        slopes[:, :, YAW] = (slopes[:, :, :2] @ turn[:, :, None])[:, :, 0]
         slopes[:, 1, YAW] += 1.0
         slopes[:, :, n - BIASES :][:, :, IMAGE_BIASES] = self.lasting
         reading = np.stack([np.arctan2(d[:, 1], d[:, 0]), states[:, YAW] + self.mount.yaw], axis=1)

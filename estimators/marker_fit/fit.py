@@ -128,15 +128,7 @@ class MarkerFit:
         return problem, np.array([axis, axis + found.relative, d]), found.false_colors
 
     def _solve(self, problem: Problem, start: Array) -> Solution | None:
-        solution = fit_centroids(problem, self._outline, start)
-        if self._method == "photometric" and not problem.quantised and self._wide(problem, solution):
-            whole = fit_photometric(problem, self._outline, solution.pose)
-            per_radian = self._outline.focal * self._outline.radius / problem.distance
-            moved = abs(whole.pose[1] - solution.pose[1]) * per_radian
-            # Steps that lead away from the centroids, to no good fit, have lost the edges.
-            good = math.sqrt(whole.misfit) * problem.share_error < GOOD_RESIDUAL
-            if moved < (1.0 if good else 0.3):
-                solution = whole
+        solution = self._whole(problem, start) or fit_centroids(problem, self._outline, start)
         worst = WORST_SAMPLED_RESIDUAL if problem.quantised else WORST_RESIDUAL
         if not math.sqrt(solution.misfit) * problem.share_error < worst:
             return None
@@ -144,10 +136,21 @@ class MarkerFit:
             solution = feasible_poses(problem, self._outline, solution)
         return solution
 
-    def _wide(self, problem: Problem, solution: Solution) -> bool:
-        """Whether the profile helps: of markers narrower than a pixel it shows where they are not, and misleads."""
-        widths = outline_at(self._outline, solution.pose).widths
-        return bool(widths[problem.markers].max() > 1.0)
+    def _whole(self, problem: Problem, start: Array) -> Solution | None:
+        """The fit of the whole profile, if that is to be had and finds the edges."""
+        if self._method != "photometric" or problem.quantised:
+            return None
+        rough = fit_centroids(problem, self._outline, start, steps=1)
+        widths = outline_at(self._outline, rough.pose).widths
+        # Of markers narrower than a pixel the profile shows where they are not, and misleads.
+        if widths[problem.markers].max() <= 1.0:
+            return None
+        whole = fit_photometric(problem, self._outline, rough.pose)
+        per_radian = self._outline.focal * self._outline.radius / problem.distance
+        moved = abs(whole.pose[1] - rough.pose[1]) * per_radian
+        # Steps that lead away from the centroids, to no good fit, have lost the edges.
+        good = math.sqrt(whole.misfit) * problem.share_error < GOOD_RESIDUAL
+        return whole if moved < (1.0 if good else 0.3) else None
 
     def _measurement(
         self,
