@@ -25,6 +25,8 @@ LEAST_OPEN: Final = 1e-4
 """How open the way into rest always is, so that a mode at rest is never without a state that makes sense."""
 Measured = Callable[[Array], tuple[Array, Array]]
 """What states (M, n) would measure: (M, k), and its derivatives (M, k, n)."""
+Plausible = Callable[[Array], Array]
+"""Log-likelihoods (M,) of modes, from those that a Gaussian error would give them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +111,15 @@ class ModeFilter:
         every = np.arange(n)
         self.P[:, every, every] += 1 - fade**2
 
-    def update(self, z: Array, measured: Measured, R: Array, angles: Array, gate: float) -> Innovation:
+    def update(
+        self,
+        z: Array,
+        measured: Measured,
+        R: Array,
+        angles: Array,
+        gate: float,
+        plausible: Plausible = lambda log_likelihood: log_likelihood,
+    ) -> Innovation:
         """Take a measurement.
 
         Args:
@@ -118,6 +128,7 @@ class ModeFilter:
             R: (k, k) covariance of the measurement.
             angles: (k,) which of its values are angles.
             gate: Largest squared Mahalanobis length, in the most willing mode, that is let in.
+            plausible: What becomes of the log-likelihoods that a Gaussian error would give the modes.
         """
         expected, H = measured(self.x)
         residual = z - expected
@@ -135,11 +146,15 @@ class ModeFilter:
         # Joseph's form keeps the covariance symmetric and positive.
         A = self._eye - K @ H
         self.P = A @ self.P @ A.transpose(0, 2, 1) + K @ R @ K.transpose(0, 2, 1)
-        log_likelihood = -0.5 * (distance + np.log(np.linalg.det(S)))
+        log_likelihood = plausible(-0.5 * (distance + np.log(np.linalg.det(S))))
         weights = self.weights * np.exp(log_likelihood - log_likelihood.max())
         weights = np.maximum(weights / weights.sum(), LEAST_WEIGHT)
         self.weights = weights / weights.sum()
         return innovation
+
+    def turning(self) -> Array:
+        """How fast the robot turns in each mode, whichever way: root mean square (M,) [rad/s]."""
+        return turning(self.model, self.x, self.P)
 
     def combined(self) -> tuple[Array, Array]:
         """State (n,) and covariance (n, n) over all modes."""
@@ -171,6 +186,12 @@ class ModeFilter:
     def _mixed_innovation(self, residual: Array, S: Array, accepted: bool) -> Innovation:
         mean, covariance = _mixtures(self.weights[:, None], residual, S)
         return Innovation(mean[0], covariance[0], accepted)
+
+
+def turning(model: MotionModel, x: Array, P: Array) -> Array:
+    """Root mean square turn rate (M,) [rad/s] of states (M, n) with covariances (M, n, n)."""
+    rate = YAW + len(model.speed_sigmas)
+    return np.sqrt(x[:, rate] ** 2 + P[:, rate, rate])
 
 
 def switching(modes: tuple[Mode, ...], dt: float) -> Array:

@@ -26,6 +26,8 @@ markers, which are what the camera compares."""
 SAME_SIDE: Final = 0.02
 """How far the target turns [rad], or how much nearer it comes, as a share of the distance, until frames begin anew to
 say how bearing and yaw follow the distance. Geometry changes that by some tenths of itself over a radian."""
+FLICKER: Final = 1e-6
+"""How likely an edge is to pass a sample between two frames of a target at rest: it must lie right on it."""
 ALONG: Final = 0.12
 """Deviation of what stays of a scan fix along the line of sight as long as the same beams meet the target, in squares
 of a range's noise over the target's radius: over how much of the curve one range is uncertain (simulated at 1 to 4.6 m
@@ -68,13 +70,17 @@ class Reading(Protocol):
     def expected(self, states: Array) -> tuple[Array, Array]:
         """What states (M, n) would read (M, k), and the derivatives (M, k, n)."""
 
-    def kept(self, before: Self, velocities: Array) -> Array:
+    def kept(self, before: Self, velocities: Array, turning: Array) -> Array:
         """Share of its biases (M, k) that is left of those of the reading before of its kind.
 
         Args:
             before: That reading.
             velocities: vx, vy (M, 2) of the robot in each mode [m/s].
+            turning: How fast it turns in each mode, whichever way (M,) [rad/s].
         """
+
+    def plausible(self, before: Self, velocities: Array, turning: Array, log_likelihood: Array) -> Array:
+        """Log-likelihoods (M,) of the modes, from those of a Gaussian error; other arguments as above."""
 
 
 def _target_of(states: Array, mount: Pose2) -> tuple[Array, Array]:
@@ -159,12 +165,18 @@ class PositionReading:
         H[:, :, -BIASES:][:, :, SCAN_BIASES] = lasting
         return target + biases @ lasting.T, H
 
-    def kept(self, before: PositionReading, velocities: Array) -> Array:
+    def kept(self, before: PositionReading, velocities: Array, turning: Array) -> Array:
         """See `Reading`."""
         axes, distance = self._sight()
         moved = np.abs(velocities @ axes) * abs(self.stamp - before.stamp)
         beams = (moved[:, 0] * 0.1 + moved[:, 1]) / (distance * self.bearing_increment)
         return np.repeat(np.clip(1 - beams / SAME_BEAMS, 0.0, 1.0)[:, None], 2, axis=1)
+
+    def plausible(
+        self, before: PositionReading, velocities: Array, turning: Array, log_likelihood: Array
+    ) -> Array:
+        """See `Reading`."""
+        return log_likelihood
 
 
 @dataclass(frozen=True, slots=True)
@@ -240,12 +252,36 @@ class MarkerReading:
         reading -= seen.sensitivity * (distance - seen.distance)[:, None]
         return reading + states[:, -BIASES:][:, IMAGE_BIASES] @ self.lasting.T, slopes
 
-    def kept(self, before: MarkerReading, velocities: Array) -> Array:
+    def kept(self, before: MarkerReading, velocities: Array, turning: Array) -> Array:
         """See `Reading`."""
-        seen, earlier = self.seen, before.seen
-        image, limbs = seen.repeats(earlier), seen.repeats_limbs(earlier)
-        shape = math.exp(-abs(math.remainder(self.side - before.side, 2 * math.pi)) / SHAPE_TURN)
-        return np.tile([image, image, limbs, shape, shape], (len(velocities), 1))
+        passed, turned = self._moved(before, velocities, turning)
+        image, limbs = self.seen.kept(before.seen, passed, turned)
+        shape = np.exp(-turned / SHAPE_TURN)
+        return np.stack([image, image, limbs, shape, shape], axis=1)
+
+    def plausible(
+        self, before: MarkerReading, velocities: Array, turning: Array, log_likelihood: Array
+    ) -> Array:
+        """See `Reading`.
+
+        An error that is the same in every frame until an edge passes a sample is not Gaussian: that the samples are
+        still the same speaks against a slow turn only as far as one should have changed, and that one has changed
+        speaks against rest, however little it changes what is read.
+        """
+        same = self.seen.same_samples(before.seen)
+        if same is None:
+            return log_likelihood
+        crossings = self.seen.crossings(*self._moved(before, velocities, turning))
+        if same:
+            return -crossings
+        return log_likelihood + np.log(np.maximum(-np.expm1(-crossings), FLICKER))
+
+    def _moved(self, before: MarkerReading, velocities: Array, turning: Array) -> tuple[Array, Array]:
+        """Change of the bearing (M,) since a frame before, and how far the side that is seen has turned (M,) [rad]."""
+        dt = abs(self.stamp - before.stamp)
+        across = np.array([-math.sin(self.seen.bearing), math.cos(self.seen.bearing)])
+        passed = velocities @ across * dt / self.seen.distance
+        return passed, turning * dt + np.abs(passed)
 
     def shows_side(self, side: float, distance: float) -> bool:
         """Whether a target that shows a side [rad] at a distance [m] shows the same as here, from as far away."""

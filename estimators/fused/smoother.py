@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from estimators.fused.mode_filter import switching
+from estimators.fused.mode_filter import switching, turning
 from estimators.fused.motion import BIASES, CREEP
 from estimators.fused.track import Moment, Track
 from estimators.poses import Array, wrap_angle
@@ -85,7 +85,8 @@ def _forward(track: Track, moments: Sequence[Moment], modes: Array) -> list[_Ste
         fade = np.ones(n)
         latest = before.latest.get(type(reading))
         if latest is not None:
-            fade[n - BIASES :][reading.biases] = reading.kept(latest, model.velocities(x[None]))[0]
+            turns = turning(model, x[None], P[None])
+            fade[n - BIASES :][reading.biases] = reading.kept(latest, model.velocities(x[None]), turns)[0]
         x, A = fade * x, fade[:, None] * A
         P = A @ P @ A.T + fade[:, None] * Q * fade + np.diag(1 - fade**2)
         predicted, P_predicted = x, P

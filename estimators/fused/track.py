@@ -128,11 +128,20 @@ class Track:
         last = self._moments[-1]
         self._predict(last, reading.stamp)
         self._ahead = None
-        before = last.latest.get(type(reading))
-        if before is not None:
-            velocities = self._filter.model.velocities(self._filter.x)
-            self._filter.forget(reading.biases, reading.kept(before, velocities))
-        innovation = self._filter.update(reading.z, reading.expected, reading.R, reading.angles, GATE)
+        f, before = self._filter, last.latest.get(type(reading))
+        if before is None:
+            innovation = f.update(reading.z, reading.expected, reading.R, reading.angles, GATE)
+        else:
+            motion = f.model.velocities(f.x), f.turning()
+            f.forget(reading.biases, reading.kept(before, *motion))
+            innovation = f.update(
+                reading.z,
+                reading.expected,
+                reading.R,
+                reading.angles,
+                GATE,
+                lambda log_likelihood: reading.plausible(before, *motion, log_likelihood),
+            )
         self._moments.append(self._moment(reading, innovation, {**last.latest, type(reading): reading}))
         return innovation
 

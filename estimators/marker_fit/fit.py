@@ -169,7 +169,9 @@ class MarkerFit:
         # Where samples are the same although the pan has moved, what is seen does not show that it did.
         doubt = expected[1] ** 2 / (expected[1] ** 2 + float(covariance[0, 0]))
         known = expected[0] + doubt * (axis - expected[0])
-        turn = (yaw - axis) * self._outline.radius / (distance - self._outline.radius)
+        pixels = self._camera.focal * np.array(
+            [1 / math.cos(axis) ** 2, self._outline.radius / (distance - self._outline.radius)]
+        )
         return MarkerMeasurement(
             stamp=stamp,
             bearing=float(wrap_angle(direction + axis)),
@@ -187,5 +189,8 @@ class MarkerFit:
             shape_error=problem.middle_error,
             lean=float(covariance[0, 1] / covariance[0, 0]),
             scale_error=problem.scale_error,
-            view=np.array([float(self._camera.column(known)), turn * self._camera.focal]),
+            view=np.array([float(self._camera.column(known)), (yaw - axis) * pixels[1]]),
+            direction=float(direction),
+            pixels=pixels,
+            samples=problem.samples,
         )

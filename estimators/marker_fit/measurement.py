@@ -9,6 +9,10 @@ import numpy as np
 
 from estimators.poses import Array, wrap_angle
 
+OBLIQUE = 0.6
+"""How fast edges move on average beside one nearest to the camera: seen over the front half of a circle 2/pi."""
+UNTURNED = 1e-9
+"""How far a camera at rest may seem to turn [rad]."""
 SAME_PIXELS = 0.5
 """How far the view moves until its pixels say something else [px]: with several edges in the picture some edge passes
 a pixel's middle well before that."""
@@ -45,6 +49,11 @@ class MarkerMeasurement:
             the sensitivity, may be off.
         view: (2,) where the pixel grid lies on the target [px]: column of the axis, as far as frame and prediction
             together tell, and turn of the circumference nearest to the camera.
+        direction: In which the camera looked, in the room [rad].
+        pixels: (2,) how far the target moves through the picture with its direction from the camera's axis, and how
+            far the circumference nearest to the camera does as it turns [px/rad].
+        samples: Columns of the samples beside every edge, and the marker that each belongs to, where a pixel is one
+            sample; empty where it is not.
     """
 
     stamp: float
@@ -64,6 +73,9 @@ class MarkerMeasurement:
     lean: float
     scale_error: float
     view: Array
+    direction: float
+    pixels: Array
+    samples: Array
 
     def expected(self, x: float, y: float, yaw: float) -> tuple[Array, Array]:
         """What this measurement would read for a target at x, y [m], yaw [rad], and its Jacobian.
@@ -98,9 +110,41 @@ class MarkerMeasurement:
         moved = float(np.abs(self.view - earlier.view).max())
         return max(0.0, 1.0 - moved / SAME_PIXELS)
 
-    def repeats_limbs(self, earlier: MarkerMeasurement) -> float:
-        """The same for the limbs alone, which do not mind that the target turns."""
-        return max(0.0, 1.0 - abs(float(self.view[0] - earlier.view[0])) / SAME_PIXELS)
+    def kept(self, earlier: MarkerMeasurement, passed: Array, turned: Array) -> tuple[Array, Array]:
+        """How much of its systematic error this frame shares with an earlier one if the target moved so, 0 ... 1.
+
+        What the picture shows does not tell: single samples stay the same while a target turns slowly, and then
+        several change at once, which they never do while it rests.
+
+        Args:
+            earlier: A frame before.
+            passed: (M,) change of its bearing since, for several assumptions [rad].
+            turned: (M,) how far the side that it shows has turned since [rad].
+
+        Returns:
+            Of markers (M,), and of limbs (M,), which do not mind that the target turns.
+        """
+        panned = math.remainder(self.direction - earlier.direction, 2 * math.pi)
+        aside = self.pixels[0] * np.abs(passed - panned)
+        most = np.maximum(aside, self.pixels[1] * np.abs(turned))
+        return np.maximum(0.0, 1.0 - most / SAME_PIXELS), np.maximum(0.0, 1.0 - aside / SAME_PIXELS)
+
+    def crossings(self, passed: Array, turned: Array) -> Array:
+        """How often an edge passes from one sample to the next on average, if the target moved so: see `kept`."""
+        edges = len(self.samples) - self.markers
+        return np.asarray(
+            edges * (self.pixels[0] * np.abs(passed) + OBLIQUE * self.pixels[1] * np.abs(turned))
+        )
+
+    def same_samples(self, earlier: MarkerMeasurement) -> bool | None:
+        """Whether every edge lies between the same two samples as in an earlier frame.
+
+        Returns:
+            None if that says nothing: a pixel averages over its area, or the camera has turned.
+        """
+        if not (self.quantised and earlier.quantised) or abs(self.direction - earlier.direction) > UNTURNED:
+            return None
+        return bool(np.array_equal(self.samples, earlier.samples))
 
     def steadied(self, earlier: MarkerMeasurement) -> MarkerMeasurement:
         """The same with the sensitivity and the lean of an earlier frame of the same view.

@@ -104,6 +104,13 @@ class Problem:
         return 1.0 if self.quantised else (self.model_error / self.share_error) ** 2
 
     @property
+    def samples(self) -> Array:
+        """Edges, and the marker of each pair, as they are seen where a pixel is one sample; else nothing (k,)."""
+        return (
+            np.concatenate([self.limbs, self.ends.ravel(), self.markers]) if self.quantised else np.empty(0)
+        )
+
+    @property
     def lasting_limb(self) -> float:
         """What of a limb's error no turn of the target takes from the middle between both [px]."""
         return SAMPLED_LIMB if self.quantised else 0.0

@@ -9,7 +9,7 @@ import pytest
 from estimators import CameraCalibration, TargetGeometry
 from estimators.fused.readings import SHAPE_TURN, MarkerReading
 from estimators.marker_fit import CameraModel
-from estimators.marker_fit.measurement import MarkerMeasurement
+from estimators.marker_fit.measurement import SAME_PIXELS, MarkerMeasurement
 from estimators.marker_fit.outline import TargetOutline
 from estimators.poses import Pose2
 
@@ -101,6 +101,9 @@ def measurement():
         lean=5.0,
         scale_error=1e-3,
         view=np.zeros(2),
+        direction=1.2,
+        pixels=np.array([450.0, 23.0]),
+        samples=np.empty(0),
     )
 
 
@@ -133,11 +136,44 @@ def test_frames_follow_the_distance_alike_until_the_target_turns_or_comes_nearer
     assert not first.shows_side(0.5, 0.95 * measurement.distance)
 
 
-def test_errors_of_the_shape_last_while_the_target_shows_the_same_side(measurement):
+def test_what_lasts_follows_how_the_robot_moves_and_not_what_a_frame_says(measurement):
     """One frame reads the yaw wrongly by a degree at random: that is no turn."""
-    aside = dataclasses.replace(measurement, yaw=measurement.yaw + 0.03, view=np.array([3.3, 0.4]))
-    before, same = MarkerReading(measurement, Pose2(), 0.5), MarkerReading(aside, Pose2(), 0.5)
-    turned = MarkerReading(aside, Pose2(), 0.5 + 2 * math.pi - 0.4)
-    still = np.zeros((1, 2))
-    np.testing.assert_allclose(same.kept(before, still), [[0, 0, 0, 1, 1]])
-    np.testing.assert_allclose(turned.kept(before, still)[0, 3:], math.exp(-0.4 / SHAPE_TURN))
+    aside = dataclasses.replace(measurement, stamp=0.1, yaw=measurement.yaw + 0.03, view=np.array([3.3, 0.4]))
+    before, after = MarkerReading(measurement, Pose2(), 0.5), MarkerReading(aside, Pose2(), 0.53)
+    rest, turn = after.kept(before, np.zeros((2, 2)), np.array([0.0, 4.0]))
+    np.testing.assert_allclose(rest, 1.0)
+    np.testing.assert_allclose(turn, [0, 0, 1, *[math.exp(-0.4 / SHAPE_TURN)] * 2])
+
+
+def test_a_camera_that_turns_with_the_target_sees_the_same(measurement):
+    turned = dataclasses.replace(measurement, stamp=0.1, direction=measurement.direction + 0.001)
+    before, after = MarkerReading(measurement, Pose2(), 0.5), MarkerReading(turned, Pose2(), 0.5)
+    across = 0.01 * measurement.distance * np.array([-math.sin(1.2), math.cos(1.2)])
+    image, limbs = after.kept(before, np.stack([np.zeros(2), across]), np.zeros(2))[:, [0, 2]].T
+    assert limbs == pytest.approx([1 - 0.45 / SAME_PIXELS, 1.0])
+    assert image == pytest.approx([1 - 0.45 / SAME_PIXELS, 1 - 0.023 / SAME_PIXELS])
+
+
+def test_samples_that_stay_the_same_say_little_against_a_slow_turn_and_changed_ones_all_against_rest(
+    measurement,
+):
+    """A degree a second turns a marker by a hundredth of a pixel a frame: that none passes a sample is no wonder."""
+    sampled = dataclasses.replace(measurement, quantised=True, samples=np.arange(11.0))
+    same = dataclasses.replace(sampled, stamp=0.033)
+    changed = dataclasses.replace(same, samples=np.arange(1.0, 12.0))
+    before = MarkerReading(sampled, Pose2(), 0.5)
+    rates, gaussian = np.array([0.0, math.radians(1.0), math.radians(60.0)]), np.array([-1.0, -2.0, -3.0])
+
+    def said(seen):
+        return MarkerReading(seen, Pose2(), 0.5).plausible(before, np.zeros((3, 2)), rates, gaussian)
+
+    rest, slow, fast = said(same)
+    assert rest == 0.0
+    assert -0.1 < slow < 0.0
+    assert fast == pytest.approx(60 * slow)
+    rest, slow, fast = said(changed) - gaussian
+    assert rest < -10 < slow < fast <= 0.0
+    averaging = dataclasses.replace(same, quantised=False)
+    panned = dataclasses.replace(changed, direction=changed.direction + 0.001)
+    for seen in (averaging, panned):
+        assert said(seen).tolist() == gaussian.tolist()
