@@ -111,7 +111,7 @@ def _resumed(folder: Path, task: str, algo: str, steps: int | None) -> Run:
     run = read_run(folder)
     if (run.task, run.algo) != (task, algo):
         raise ConfigError(f"--out {folder}: holds a training of --task {run.task} --algo {run.algo}")
-    if run.algo == "bc":
+    if run.algo == "bc" and (folder / POLICY).is_file():
         raise ConfigError("--resume: cloning is done in one go; train it anew")
     values = run.settings.as_dict()
     if steps is not None:
@@ -146,9 +146,7 @@ def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
         try:
             done = _learn(run, folder, resume, jobs, lambda n: bar.update(shown, completed=n))
         except KeyboardInterrupt:
-            raise TrainingStoppedError(
-                f"interrupted: {folder / POLICY} is saved; the same command with --resume goes on from it"
-            ) from None
+            raise TrainingStoppedError(f"interrupted: {_left_behind(run, folder)}") from None
     spent = {"seconds": clock() - wall, "cpu_seconds": process_time() - cpu}
     spent = {key: value + run.setup.get(key, 0.0) for key, value in spent.items()}
     replace(run, setup={**run.setup, **spent}).write(folder)
@@ -158,6 +156,15 @@ def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
         highlight=False,
         markup=False,
     )
+
+
+def _left_behind(run: Run, folder: Path) -> str:
+    """What there is after an interrupt, and how to go on."""
+    if not (folder / POLICY).is_file():
+        return "nothing was learnt yet; the same command with --resume begins anew"
+    if run.algo == "bc":
+        return f"{folder / POLICY} holds what the rounds before taught"
+    return f"{folder / POLICY} is saved; the same command with --resume goes on from it"
 
 
 def _learn(run: Run, folder: Path, resume: bool, jobs: int, progress: Callable[[int], None]) -> int:
