@@ -111,7 +111,7 @@ def score(
     from benchmarks.engines import Engine
     from benchmarks.report.terminal import rich_table
     from benchmarks.scoring.carry_out import carry_out
-    from benchmarks.scoring.write import write_page
+    from benchmarks.scoring.write import problems, write_page
 
     if not no_figures:
         require_report_extra()
@@ -143,10 +143,7 @@ def score(
             write_page(folder, result, request.room(), setup, console)
     for table in result.tables()[:SHOWN_TABLES]:
         console.print(rich_table(table))
-    for summary in result.summaries:
-        for line in summary.problems:
-            console.print(line, markup=False, highlight=False, soft_wrap=True)
-        for run, why in summary.why_not.items():
-            console.print(f"{summary.name}: not scored in {run}: {why}", markup=False, highlight=False)
+    for line in problems(result):
+        console.print(line, markup=False, highlight=False, soft_wrap=True)
     page = out / ("report.json" if no_figures else "report.html")
     console.print(str(page), soft_wrap=True, highlight=False, markup=False)

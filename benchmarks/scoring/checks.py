@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
@@ -11,7 +12,7 @@ import numpy as np
 from benchmarks.scoring.judge import JudgedRun
 from benchmarks.scoring.quantities import Corrected, corrected
 from benchmarks.scoring.reference_errors import Found, together
-from benchmarks.scoring.station import REFERENCES
+from benchmarks.scoring.station import DOUBT
 from benchmarks.scoring.verdicts import JUDGED, near, ratio, ratio_of_true_error, true_ratio, verdict
 
 CHECKED: Final = ("position", "along", "cross", "yaw", "rpe_1m", "rpe_1m_yaw", "rpe_1s")
@@ -25,7 +26,9 @@ class Agreement:
     Attributes:
         cases: How many verdicts.
         true_error: Share that is that of the true error over the stated uncertainty.
-        truth: Share that is that of the true error over the station's true error.
+        truth: Share that is that of the true error over the station's true uncertainty, which is the root mean
+            square of its errors over all runs of the path.
+        truth_of_run: The same over the station's error in that very run, which scatters around its uncertainty.
         near: Share whose interval of the ratio holds 2 or 4.
         true_error_clear: As `true_error`, of those that are not near; None if there is none.
         truth_clear: As `truth`, likewise.
@@ -34,6 +37,7 @@ class Agreement:
     cases: int
     true_error: float
     truth: float
+    truth_of_run: float
     near: float
     true_error_clear: float | None
     truth_clear: float | None
@@ -74,50 +78,69 @@ def checked(runs: Sequence[JudgedRun]) -> dict[str, Checked]:
             runs=len(runs),
             station=station,
             held={subject: _held(of) for subject, of in single.items()},
-            agreement=_agreement([scores for of in single.values() for scores in of]),
+            agreement=_agreement([case for of in single.values() for case in _cases(of)]),
         )
     return found
 
 
-def _single(runs: Sequence[JudgedRun], reference: str, subject: str) -> list[dict[str, Corrected | None]]:
-    """The scores of each run alone."""
-    model, found = REFERENCES[reference], []
-    for run in runs:
-        errors = run.judged[reference][subject].errors
-        if errors is not None:
-            found.append({q: corrected([errors.quantities[q]], model.allowance(q)) for q in CHECKED})
-    return found
+def _single(
+    runs: Sequence[JudgedRun], reference: str, subject: str
+) -> list[tuple[str, dict[str, Corrected | None]]]:
+    """The scores of each run alone, with its path."""
+    return [
+        (run.name, {q: corrected([errors.quantities[q]], DOUBT) for q in CHECKED})
+        for run in runs
+        if (errors := run.judged[reference][subject].errors) is not None
+    ]
 
 
-def _held(single: Sequence[dict[str, Corrected | None]]) -> dict[str, float]:
+def _held(single: Sequence[tuple[str, dict[str, Corrected | None]]]) -> dict[str, float]:
     shares = {}
     for quantity in CHECKED:
-        held = [c.covers for scores in single if (c := scores[quantity]) and c.covers is not None]
+        held = [c.covers for _, scores in single if (c := scores[quantity]) and c.covers is not None]
         if held:
             shares[quantity] = float(np.mean(held))
     return shares
 
 
-def _agreement(single: Sequence[dict[str, Corrected | None]]) -> Agreement | None:
-    cases = [
-        (
-            verdict(ratio(c)) == verdict(ratio_of_true_error(c)),
-            verdict(ratio(c)) == verdict(true_ratio(c)),
-            near(c) is not None,
-        )
-        for scores in single
-        for quantity in JUDGED.values()
-        if (c := scores[quantity]) is not None and true_ratio(c) is not None
-    ]
+def _cases(single: Sequence[tuple[str, dict[str, Corrected | None]]]) -> list[tuple[bool, ...]]:
+    """Of one subject, for each run and what is judged: whether verdicts agree, and whether they are near a bound."""
+    cases: list[tuple[bool, ...]] = []
+    for quantity in JUDGED.values():
+        known = [
+            (path, c) for path, scores in single if (c := scores[quantity]) and true_ratio(c) is not None
+        ]
+        for path, c in known:
+            said = verdict(ratio(c))
+            station = _root_mean_square([other for where, other in known if where == path])
+            cases.append(
+                (
+                    said == verdict(ratio_of_true_error(c)),
+                    said == verdict((c.true or 0.0) / station),
+                    said == verdict(true_ratio(c)),
+                    near(c) is not None,
+                )
+            )
+    return cases
+
+
+def _root_mean_square(scores: Sequence[Corrected]) -> float:
+    """Of the station's errors over several runs."""
+    n = sum(c.n for c in scores)
+    return math.sqrt(sum(c.n * (c.gt_true or 0.0) ** 2 for c in scores) / n)
+
+
+def _agreement(cases: Sequence[tuple[bool, ...]]) -> Agreement | None:
     if not cases:
         return None
     table = np.array(cases)
-    clear = table[~table[:, 2]]
+    clear = table[~table[:, 3]]
     return Agreement(
         cases=len(table),
         true_error=float(table[:, 0].mean()),
         truth=float(table[:, 1].mean()),
-        near=float(table[:, 2].mean()),
+        truth_of_run=float(table[:, 2].mean()),
+        near=float(table[:, 3].mean()),
         true_error_clear=float(clear[:, 0].mean()) if len(clear) else None,
         truth_clear=float(clear[:, 1].mean()) if len(clear) else None,
     )

@@ -12,7 +12,7 @@ import numpy as np
 from benchmarks.scoring.bootstrap import resampled_roots, sums
 from benchmarks.scoring.judge import JudgedRun
 from benchmarks.scoring.quantities import Z95, Quantity, corrected
-from benchmarks.scoring.station import REFERENCES
+from benchmarks.scoring.station import DOUBT
 from benchmarks.scoring.summary import run_units
 from benchmarks.scoring.verdicts import JUDGED
 
@@ -90,7 +90,6 @@ def _compared(
         for u, stated in zip(of_units, (score_a.stated, score_b.stated), strict=True)
     ]
     few = math.sqrt(len(by.strata) / max(by.freedom, 1))
-    understated = REFERENCES[reference].allowance(quantity)
     error = few * float((roots[0] - roots[1]).std())
     difference = score_a.value - score_b.value
     half = by.quantile * error
@@ -105,17 +104,15 @@ def _compared(
         p=math.erfc(deviate / math.sqrt(2)),
         significant=False,
         resolvable=half,
-        by_station=_by_station(firsts, seconds, score_a.raw + score_b.raw, understated),
+        by_station=_by_station(firsts, seconds, score_a.raw + score_b.raw),
     )
 
 
-def _by_station(
-    firsts: Sequence[Quantity], seconds: Sequence[Quantity], both: float, understated: float
-) -> float:
+def _by_station(firsts: Sequence[Quantity], seconds: Sequence[Quantity], both: float) -> float:
     """What the station's errors do to the difference: of the mean squares, 2 (e1 - e2).g, as |g|^2 cancels."""
     share = np.array([q.n for q in firsts]) / sum(q.n for q in firsts)
     apart = share @ np.array([x.cross - y.cross for x, y in zip(firsts, seconds, strict=True)])
-    spread = 2 * math.sqrt(understated) * float(apart.std())
+    spread = 2 * math.sqrt(DOUBT) * float(apart.std())
     return Z95 * spread / both if both > 0 else 0.0
 
 

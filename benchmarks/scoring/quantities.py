@@ -3,7 +3,7 @@
 With an estimate's error e and the reference's error g the two differ by d = e - g. As g does not depend on e,
 E|d|^2 = E|e|^2 + E|g|^2, so the mean of |d|^2 less the station's own variance is an unbiased estimate of the mean
 of |e|^2. Its spread comes from 2 e.g, which grows with e, and from |g|^2; both last as long as g does, hence the
-histories of errors that are drawn.
+histories of errors that are drawn. A little correlation of the two is allowed for.
 """
 
 from __future__ import annotations
@@ -19,6 +19,9 @@ from estimators.poses import Array
 
 Z95: Final = 1.959963984540054
 """Standard deviations either way that hold 95 % of a normal distribution."""
+SHARED: Final = 0.05
+"""Correlation of a localizer's errors with the station's that intervals allow for. They hear nothing of each other, but
+both miss how the robot moves between their measurements, as where a wheel slips."""
 MOST_DRAWN: Final = 600
 """Samples of a run that error histories are drawn for: ten a second in a minute."""
 
@@ -115,7 +118,7 @@ def thinned(n: int) -> slice:
     return slice(None, None, max(1, math.ceil(n / MOST_DRAWN)))
 
 
-def corrected(quantities: Sequence[Quantity], understated: float = 1.0) -> Corrected | None:
+def corrected(quantities: Sequence[Quantity], doubt: float = 1.0) -> Corrected | None:
     """Put runs together; None if there is no sample.
 
     The interval holds every mean squared error T for which the one that was read is within 1.96 standard
@@ -123,8 +126,8 @@ def corrected(quantities: Sequence[Quantity], understated: float = 1.0) -> Corre
 
     Args:
         quantities: One per run.
-        understated: By how much the station's variance may exceed the stated one. The point is corrected by
-            the stated one, the interval allows for both.
+        doubt: By how much the station's variance may exceed the stated one. The point is corrected by the stated
+            one, the interval allows for both.
     """
     n = sum(q.n for q in quantities)
     if n == 0:
@@ -134,8 +137,8 @@ def corrected(quantities: Sequence[Quantity], understated: float = 1.0) -> Corre
     own = share @ np.array([q.own for q in quantities])
     cross = share @ np.array([q.cross for q in quantities])
     stated = float(own.mean())
-    by_error = 4 * understated * float(cross.var()) / raw if raw > 0 else 0.0
-    by_itself = float((understated * own).var()) + ((understated - 1) * stated / Z95) ** 2
+    by_error = 4 * doubt * (float(cross.var()) / raw + SHARED**2 * stated) if raw > 0 else 0.0
+    by_itself = float((doubt * own).var()) + ((doubt - 1) * stated / Z95) ** 2
     true = sum(q.true_squares for q in quantities) / n
     gt = sum(q.gt_squares for q in quantities) / n
     low, high = _between(raw, stated, by_error, by_itself)

@@ -19,6 +19,12 @@ SPACING: Final = 0.1
 """Time between their samples [s]."""
 
 
+DOUBT: Final = 2.0
+"""By how much the variance of a reference's errors may exceed the stated one, as intervals allow for. A standard
+uncertainty that is known to 35 % has four degrees of freedom (GUM, JCGM 100:2008, G.4.2), and their Student's t widens
+a 95 % interval by 2.78 over 1.96, which is the root of two."""
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class ErrorModel:
     """Errors of a reference: of the stated covariance, lasting for a while, and a common part that stays.
@@ -26,30 +32,21 @@ class ErrorModel:
     Attributes:
         position_time: How long an error of the position lasts [s]: its correlation falls to 1/e.
         yaw_time: The same of the yaw [s].
-        understated: Variance of the errors of the position over the stated one, as measured in simulation.
-        yaw_understated: The same of the yaw.
         common: Standard deviation of what is the same in all runs, x, y [m], yaw [rad]: the calibration of the
             station in the room, which its covariance does not know of. Zero in simulation.
     """
 
     position_time: float = 5.0
     yaw_time: float = 0.1
-    understated: float = 1.0
-    yaw_understated: float = 1.0
     common: tuple[float, float, float] = (0.0, 0.0, 0.0)
-
-    def allowance(self, quantity: str) -> float:
-        """By how much the variance may exceed the stated one, in a quantity of position or of yaw."""
-        return self.yaw_understated if quantity.endswith("yaw") else self.understated
 
 
 REFERENCES: Final[dict[str, ErrorModel]] = {
-    "fused": ErrorModel(position_time=6.5, yaw_time=0.1, understated=2.0, yaw_understated=2.0),
-    "smooth": ErrorModel(position_time=10.0, yaw_time=0.1, understated=3.5, yaw_understated=2.0),
+    "fused": ErrorModel(position_time=6.5, yaw_time=0.1),
+    "smooth": ErrorModel(position_time=10.0, yaw_time=0.1),
     "file": ErrorModel(position_time=5.0, yaw_time=5.0),  # errors that last are the careful assumption
 }
-"""By method, and of a file. What `checks` in `report.json` says of scores with seeds 1 and 2, on the path where most is
-understated, rounded up; docs/scoring.md has the commands."""
+"""By method, and of a file: `lasts_s` of `checks` in `report.json`; docs/scoring.md has the command."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)

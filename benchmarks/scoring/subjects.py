@@ -146,7 +146,13 @@ def make_localizer(
     if subject.kind == "localizer":
         made: Any = embedded_localizer(subject.target, robot, room, start, seed)
     else:
-        made = _made(_imported(subject), {"start": start, "robot": robot, "room": room, "seed": seed})
+        thing = _imported(subject)
+        try:
+            made = _made(thing, {"start": start, "robot": robot, "room": room, "seed": seed})
+        except ConfigError:
+            raise
+        except (Exception, SystemExit) as error:  # somebody's constructor may do anything
+            raise ConfigError(f"SUBJECT {subject.name}: cannot be made: {_words(error)}") from None
         if getattr(made, "wants_truth", False):
             made = Witness(made)
     return Guarded(made, subject.name)
@@ -190,9 +196,12 @@ def _imported(subject: Subject) -> Any:
         return getattr(importlib.import_module(module), attribute)
     except AttributeError:
         raise ConfigError(f"SUBJECT {subject.target}: module {module} has no {attribute!r}") from None
-    except Exception as error:  # somebody's module may do anything when it is imported
-        words = " ".join(f"{type(error).__name__}: {error}".split())
-        raise ConfigError(f"SUBJECT {subject.target}: cannot be imported: {words}") from None
+    except (Exception, SystemExit) as error:  # somebody's module may do anything when it is imported
+        raise ConfigError(f"SUBJECT {subject.target}: cannot be imported: {_words(error)}") from None
+
+
+def _words(error: BaseException) -> str:
+    return " ".join(f"{type(error).__name__}: {error}".split())
 
 
 def _allowed() -> str:

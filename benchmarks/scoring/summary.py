@@ -10,7 +10,7 @@ import numpy as np
 from benchmarks.scoring.bootstrap import Units, expected_interval, sums, units
 from benchmarks.scoring.judge import Judged, JudgedRun
 from benchmarks.scoring.quantities import Corrected, Quantity, corrected
-from benchmarks.scoring.station import REFERENCES
+from benchmarks.scoring.station import DOUBT
 from benchmarks.scoring.verdicts import Verdict, ratios, verdict
 from benchmarks.trajectory.offsets import Offsets, combined
 
@@ -126,9 +126,8 @@ def _score(name: str, runs: Sequence[JudgedRun], reference: str, seed: int) -> S
     if not there:
         return None
     errors = [judged.errors for _, judged in there if judged.errors is not None]
-    model = REFERENCES[reference]
     quantities = {q: [e.quantities[q] for e in errors] for q in errors[0].quantities}
-    scores = {q: corrected(of, model.allowance(q)) for q, of in quantities.items()}
+    scores = {q: corrected(of, DOUBT) for q, of in quantities.items()}
     resampled = run_units(there)
     nees = [e.nees for e in errors if e.nees is not None]
     nees_true = [e.nees_true for e in errors if e.nees_true is not None]

@@ -121,7 +121,7 @@ def _health(order: Sequence[SubjectSummary]) -> Table:
                 number(times(s.latency[0], MM) if s.latency else None, 1),
                 number(times(s.latency[1], MM) if s.latency else None, 1),
                 number(times(s.update_time, 1e6), 0),
-                "; ".join(p.partition(": ")[2] for p in s.problems) or NONE,
+                "; ".join(p.partition(": ")[2].partition(" of ")[0] for p in s.problems) or NONE,
             )
         )
     head = (

@@ -56,7 +56,8 @@ def check_table(checks: Mapping[str, Checked]) -> Table:
     note = (
         "Of each run by itself; the truth is known here. Variance, time: position, yaw. Intervals: 95 % are meant to "
         "hold. Verdicts: right is what the true error over the stated uncertainty gives; by true station: over the "
-        "station's error as it was, which scatters itself; near: with a bound within the ratio's interval."
+        "station's true uncertainty, the root mean square of its errors in all runs of the path; near: with a bound "
+        "within the ratio's interval."
     )
     return Table(title="Were intervals and verdicts right?", head=head, rows=tuple(rows), note=note)
 

@@ -105,6 +105,7 @@ def write_page(folder: Path, result: Result, room: Room, setup: Mapping[str, Any
     page = environment.get_template("score.html.j2").render(
         facts=_facts(result),
         tables=result.tables(),
+        problems=problems(result),
         plates=shown,
         pictures={p.name: base64.b64encode((folder / f"{p.name}.png").read_bytes()).decode() for p in shown},
         setup=setup,
@@ -161,6 +162,18 @@ def plates(result: Result, room: Room) -> list[Plate]:
 
 def _plate(name: str, caption: str, draw: Any) -> Plate:
     return Plate(name=name, section="score", repeats="", caption=caption, draw=draw)
+
+
+def problems(result: Result) -> list[str]:
+    """What went wrong with whom, and who was not scored in which run."""
+    return [
+        line
+        for s in result.summaries
+        for line in (
+            *s.problems,
+            *(f"{s.name}: not scored in {run}: {why}" for run, why in s.why_not.items()),
+        )
+    ]
 
 
 def _facts(result: Result) -> list[dict[str, str]]:

@@ -26,8 +26,8 @@ def read_csv(path: Path | str) -> Trajectory:
     `yaw_valid`, 0 or 1, may be there too. It is what `gt-env replay` writes.
 
     Raises:
-        TrajectoryError: If it cannot be read, columns are missing, a number is not finite or stamps do not
-            increase; the message names file and line.
+        TrajectoryError: If it cannot be read, columns are missing, a number is not finite, a covariance is none or
+            stamps do not increase; the message names file and line.
     """
     lines = read_lines(path)
     table = [(i, line) for i, line in enumerate(csv.reader(lines), start=1) if any(w.strip() for w in line)]
@@ -50,7 +50,7 @@ def read_csv(path: Path | str) -> Trajectory:
     return Trajectory(
         stamps=stamps,
         poses=np.column_stack([values[name] for name in NEEDED[1:]]),
-        covariances=_covariances(values),
+        covariances=_covariances(path, rows, values),
         valid=valid,
         yaw_valid=valid & (values["yaw_valid"] != 0) if "yaw_valid" in values else valid,
         origin=str(path),
@@ -94,10 +94,15 @@ def _places(path: Path | str, line: int, head: Sequence[str]) -> dict[str, int]:
     return {name: head.index(name) for name in (*needed, *(f for f in FLAGS if f in head))}
 
 
-def _covariances(values: dict[str, Array]) -> Array | None:
+def _covariances(path: Path | str, rows: Sequence[Row], values: dict[str, Array]) -> Array | None:
     if COVARIANCE[0] not in values:
         return None
     full = np.empty((len(values["stamp"]), 3, 3))
     for name, i, j in zip(COVARIANCE, *np.triu_indices(3), strict=True):
         full[:, i, j] = full[:, j, i] = values[name]
+    eigenvalues = np.linalg.eigvalsh(full)
+    impossible = eigenvalues[:, 0] < -1e-9 * np.abs(eigenvalues[:, -1])
+    if impossible.any():
+        line = rows[int(np.argmax(impossible))].line
+        raise TrajectoryError(f"{path}:{line}: the covariance has a negative eigenvalue: it is none")
     return full

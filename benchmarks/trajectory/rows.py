@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.trajectory.trajectory import TrajectoryError
+from estimators.localizers.guard import FARTHEST
 from estimators.poses import Array
 
 
@@ -49,6 +50,8 @@ def numbers(path: Path | str, line: int, words: Sequence[str], names: Sequence[s
             raise TrajectoryError(f"{path}:{line}: {name} = {word.strip()!r}: must be a number") from None
         if not math.isfinite(value):
             raise TrajectoryError(f"{path}:{line}: {name} = {word.strip()}: must be finite")
+        if name in ("x", "y") and abs(value) > FARTHEST:
+            raise TrajectoryError(f"{path}:{line}: {name} = {word.strip()}: must be within {FARTHEST:g} m")
         values.append(value)
     return tuple(values)
 

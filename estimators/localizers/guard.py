@@ -21,6 +21,8 @@ ROBOT: Final = "robot/"
 """What the sources of the messages begin with that a localizer hears."""
 LATEST: Final = 0.5
 """An answer older than this against the message that it answers is late [s]."""
+FARTHEST: Final = 1e8
+"""No position is farther from the origin, not even on a map of the Earth [m]."""
 
 RAISED, NOT_FINITE, MALFORMED, LATE, AHEAD, BACKWARDS = (
     "raised", "not finite", "malformed", "late", "ahead of time", "backwards in time"
@@ -92,9 +94,10 @@ def _takes_nothing(function: Callable[..., Any]) -> bool:
 class Guarded:
     """A localizer whose failures are answered by an invalid estimate and counted by reason.
 
-    It hears the robot's messages only. An exception, a pose or covariance that is not finite, an answer of
-    another type, one that is late against its message or ahead of it, and one that goes backwards in time make
-    the localizer unavailable until its next good answer; `estimate` then is the last good one, marked invalid.
+    It hears the robot's messages only. An exception, a pose or covariance that is not finite, a position off the
+    Earth, an answer of another type, one that is late against its message or ahead of it, and one that goes
+    backwards in time make the localizer unavailable until its next good answer; `estimate` then is the last good
+    one, marked invalid.
 
     Args:
         localizer: See `as_estimator`.
@@ -127,7 +130,7 @@ class Guarded:
         self._clear()
         try:
             self.localizer.reset()
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             self._fail(RAISED, f"reset: {_words(error)}")
 
     def update(self, message: Message) -> PoseEstimate | None:
@@ -138,7 +141,7 @@ class Guarded:
         before = perf_counter()
         try:
             answer: Any = self.localizer.update(message)
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             reason = NOT_FINITE if _speaks_of_finiteness(error) else RAISED
             return self._fail(reason, f"at {message.stamp:g} s: {_words(error)}")
         finally:
@@ -165,6 +168,8 @@ class Guarded:
             return MALFORMED, f"{at}: {type(answer).__name__} in place of a PoseEstimate"
         if not np.isfinite(answer.stamp):
             return NOT_FINITE, f"{at}: stamp {answer.stamp}"
+        if not max(abs(answer.pose.x), abs(answer.pose.y)) <= FARTHEST:
+            return MALFORMED, f"{at}: a position of {answer.pose.x:g}, {answer.pose.y:g} m"
         if answer.stamp > message.stamp + 1e-9:
             return AHEAD, f"{at}: stamp {answer.stamp:g} s"
         if self.estimate.stamp >= 0 and answer.stamp < self.estimate.stamp - 1e-9:
@@ -182,11 +187,11 @@ class Guarded:
         return self.estimate
 
 
-def _words(error: Exception) -> str:
+def _words(error: BaseException) -> str:
     return " ".join(f"{type(error).__name__}: {error}".split())
 
 
-def _speaks_of_finiteness(error: Exception) -> bool:
+def _speaks_of_finiteness(error: BaseException) -> bool:
     """Whether a message type has refused a NaN that the localizer put into it."""
     return isinstance(error, MeasurementError) and re.search(r"\b(nan|inf)\b", str(error)) is not None
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from benchmarks.scoring.errors import run_errors
-from benchmarks.scoring.quantities import Z95, Quantity, corrected
-from benchmarks.scoring.station import ErrorModel, Station
+from benchmarks.scoring.quantities import SHARED, Z95, Quantity, corrected
+from benchmarks.scoring.station import DOUBT, ErrorModel, Station
 from benchmarks.trajectory.association import associate
 from benchmarks.trajectory.trajectory import Trajectory
 from estimators.poses import wrap_angle
@@ -96,7 +96,7 @@ def test_the_interval_allows_for_a_station_that_is_worse_than_it_says():
     held = []
     for seed in range(60):
         quantity = scoring(seed, 0.01, factor=math.sqrt(2.0))["position"]
-        held.append([corrected([quantity], understated).covers for understated in (1.0, 2.0)])
+        held.append([corrected([quantity], doubt).covers for doubt in (1.0, DOUBT)])
     believed, allowed = np.mean(held, axis=0)
     assert believed < 0.93
     assert allowed >= 0.90
@@ -110,7 +110,8 @@ def test_the_interval_solves_its_own_equation():
     found = corrected([q])
     for end in found.interval:
         t = end**2
-        assert (4e-4 - 1e-4 - t) ** 2 == pytest.approx(Z95**2 * 4 * 1e-12 / 4e-4 * t, rel=1e-6)
+        per_error = 4 * (1e-12 / 4e-4 + SHARED**2 * 1e-4)
+        assert (4e-4 - 1e-4 - t) ** 2 == pytest.approx(Z95**2 * per_error * t, rel=1e-6)
     assert found.true is None
     assert found.covers is None
 

@@ -29,6 +29,9 @@ class All(Nothing):
 class Other(Nothing):
     def __init__(self, start, gain): pass
 
+class Broken(Nothing):
+    def __init__(self, start): raise SystemExit("no licence")
+
 def made(start): return Start(start)
 def function(message): return None
 """
@@ -69,6 +72,11 @@ def test_a_class_that_wants_something_else_is_refused_by_its_name_and_what_there
     with pytest.raises(ConfigError, match=re.escape("Other: wants gain")) as error:
         parse_subject("own_localizers:Other", folder)
     assert "start, robot, room, seed" in str(error.value)
+
+
+def test_a_constructor_that_fails_is_named_and_ends_nothing_else(folder):
+    with pytest.raises(ConfigError, match="own_localizers:Broken: cannot be made: SystemExit: no licence"):
+        make("Broken", folder)
 
 
 def test_nothing_can_be_recorded_that_is_not_driven(tmp_path):

@@ -65,6 +65,7 @@ def test_comments_and_empty_lines_are_passed_over(tmp_path):
         ([GOOD, "0.05 1 2 0 0 0 0 1"], 2, "is before that of line 1"),
         ([GOOD, "#", GOOD], 3, "is the same as that of line 1"),
         ([GOOD, "0.2 1 nan 0 0 0 0 1"], 2, "y = nan: must be finite"),
+        ([GOOD, "0.2 1 -1e200 0 0 0 0 1"], 2, "y = -1e200: must be within 1e+08 m"),
         ([GOOD, "0.2 1 2 0 0 0 1"], 2, "7 columns: must be 8"),
         ([GOOD, "0.2 1 two 0 0 0 0 1"], 2, "y = 'two': must be a number"),
     ],
@@ -78,6 +79,9 @@ def test_bad_tum_is_an_error_with_file_and_line(tmp_path, lines, line, says):
     assert says in str(error.value)
 
 
+COVARIANCES = "stamp,x,y,yaw,cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,cov_yawyaw"
+
+
 @pytest.mark.parametrize(
     ("lines", "line", "says"),
     [
@@ -88,6 +92,7 @@ def test_bad_tum_is_an_error_with_file_and_line(tmp_path, lines, line, says):
         (["stamp,x,y,yaw", "0,1,2,0", "", "-1,1,2,0"], 4, "is before"),
         (["stamp,x,y,yaw", "0,1,2,inf"], 2, "yaw = inf: must be finite"),
         (["stamp,x,y,yaw", "0,1,2"], 2, "3 columns: must be 4"),
+        ([COVARIANCES, "0,1,2,0,1,0,0,1,0,1", "1,1,2,0,1,2,0,1,0,1"], 3, "negative eigenvalue"),
     ],
 )
 def test_bad_csv_is_an_error_with_file_and_line(tmp_path, lines, line, says):

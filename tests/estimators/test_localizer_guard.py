@@ -1,5 +1,7 @@
 """Localizers that fail in every way, and what `Guarded` and `LocalizerWrapper` make of it."""
 
+import sys
+
 import gymnasium as gym
 import numpy as np
 import pytest
@@ -41,11 +43,13 @@ def tick(i, source="robot/encoders"):
     ("bad", "reason", "words"),
     [
         (raises, "raised", "RuntimeError: lost my way"),
+        (lambda t: sys.exit("enough"), "raised", "SystemExit: enough"),
         (lambda t: estimate(t, x=float("nan")), "not finite", "nan"),
         (lambda t: estimate(t, covariance=float("inf")), "not finite", "inf"),
         (lambda t: estimate(float("nan")), "not finite", "stamp"),
         (lambda t: (1.0, 2.0, 3.0), "malformed", "tuple"),
         (lambda t: estimate(t, covariance=-1e-4), "malformed", "negative"),
+        (lambda t: estimate(t, x=1e200), "malformed", "a position of 1e+200"),
         (lambda t: estimate(t - 0.05), "backwards in time", "0.15 s after 0.2"),
         (lambda t: estimate(t + 1.0), "ahead of time", "1.2"),
     ],
