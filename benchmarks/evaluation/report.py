@@ -17,7 +17,6 @@ from benchmarks.report.tables import Table
 from benchmarks.training.folder import Run
 
 NONE = "-"
-SPREAD = ("smallest", "mean", "largest")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,7 +95,7 @@ def tables(found: Findings) -> list[Table]:
     """Success, driving, reward, and the spread over seeds."""
     shown = [_success(found), _driving(found), _reward(found)]
     apart = spread(found.scores, found.groups)
-    return shown + ([_spread(apart)] if apart else [])
+    return shown + ([_spread(apart, found.plan.task)] if apart else [])
 
 
 def _success(found: Findings) -> Table:
@@ -160,22 +159,29 @@ def _reward(found: Findings) -> Table:
     return Table(title="Reward per episode, by terms", head=("policy", "return", *names), rows=rows)
 
 
-def _spread(apart: dict[str, dict[str, Any]]) -> Table:
-    rows = []
-    for kind, s in apart.items():
-        rows.append(
-            (
-                f"{kind} ({s['runs']} seeds)",
-                " / ".join(percent(v) for v in s["success"]),
-                " / ".join(percent(v) for v in s["success_gt"]),
-                " / ".join(number(v, 1) for v in s.get("time_s", [])) or NONE,
-                " / ".join(number(v, 3) for v in s["smoothness"]),
-            )
+def _spread(apart: dict[str, dict[str, Any]], task: str) -> Table:
+    shown = [
+        ("success", "success [%]", 100.0, 1),
+        ("success_gt", "by gt [%]", 100.0, 1),
+        ("time_s", "time [s]", 1.0, 1),
+    ]
+    if task == "follow_path":
+        shown += [("cross_track_m", "cross-track [mm]", 1e3, 1), ("speed_mps", "speed [m/s]", 1.0, 3)]
+    shown += [("smoothness", "smoothness", 1.0, 3)]
+    rows = tuple(
+        (
+            f"{kind} ({s['runs']} seeds)",
+            *(
+                " / ".join(number(v, places, scale) for v in s.get(key, [])) or NONE
+                for key, _, scale, places in shown
+            ),
         )
+        for kind, s in apart.items()
+    )
     return Table(
         title="Spread over training seeds: smallest / mean / largest",
-        head=("training", "success [%]", "by gt [%]", "time [s]", "smoothness"),
-        rows=tuple(rows),
+        head=("training", *(head for _, head, _, _ in shown)),
+        rows=rows,
     )
 
 

@@ -57,7 +57,9 @@ def spread(scores: dict[str, dict[str, Any]], groups: dict[str, list[str]]) -> d
         scores: By policy.
         groups: Names of policies that differ in their seed only, by what they have in common.
     """
-    compared = ("success", "success_gt", "time_s", "smoothness", "cross_track_m", "return")
+    compared = (
+        "success", "success_gt", "gap", "undecided", "time_s", "speed_mps", "smoothness", "cross_track_m", "return",
+    )  # fmt: skip
     return {
         kind: {
             "runs": len(names),

@@ -102,8 +102,11 @@ def test_wilson_s_interval_is_the_published_one():
 
 
 def test_spread_is_over_the_trainings_of_one_kind():
-    scores = {n: dict.fromkeys(("success", "success_gt", "time_s", "smoothness", "return"), v) | {"cross_track_m": None}
-              for n, v in (("a", 0.5), ("b", 1.0), ("c", 0.0))}  # fmt: skip
+    measures = ("success", "success_gt", "gap", "undecided", "time_s", "speed_mps", "smoothness", "return")
+    scores = {
+        name: dict.fromkeys(measures, value) | {"cross_track_m": None}
+        for name, value in (("a", 0.5), ("b", 1.0), ("c", 0.0))
+    }
     found = spread(scores, {"kind": ["a", "b"], "alone": ["c"]})
     assert list(found) == ["kind"]
     assert found["kind"]["success"] == [0.5, 0.75, 1.0]
