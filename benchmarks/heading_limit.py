@@ -142,8 +142,8 @@ def _distance(calibration: Calibration, rng: np.random.Generator) -> float:
 
 
 def _spread(values: Array) -> float:
-    """Mean distance from the median, which no other estimate undercuts."""
-    return float(np.abs(values - np.median(values)).mean())
+    """Mean distance from the median, which no other estimate undercuts; none if there is less than one step of room."""
+    return float(np.abs(values - np.median(values)).mean()) if values.size else 0.0
 
 
 def _mean(values: list[float]) -> tuple[float, float]:

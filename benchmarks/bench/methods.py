@@ -17,14 +17,19 @@ from estimators.protocol import METHODS, ground_truth_estimator
 
 
 def estimators(setup: Setup) -> Iterator[Finding]:
-    """Every method on the same messages, per scan and per frame."""
+    """Every method on the same messages: per scan, per frame, and for a scan with all frames until the next."""
     messages, believed = _drive(setup, steps=max(10, 2 * setup.effort.rounds))
     periods = {STATION_LRF: 1 / setup.config.lrf.rate, STATION_CAMERA: 1 / setup.config.camera.rate}
     names = {STATION_LRF: "scan", STATION_CAMERA: "frame"}
     for method in METHODS:
-        seconds = _seconds_per_message(method, believed, messages)
-        for source, taken in seconds.items():
-            yield real_time(f"{method}, per {names[source]}", taken, "the sensor's period", periods[source])
+        taken = _seconds(method, believed, messages)
+        for source, name in names.items():
+            each = np.array([seconds for of, seconds in taken if of == source])
+            if each.size:
+                yield real_time(f"{method}, per {name}", each, "the sensor's period", periods[source])
+        together = _between_scans(taken)
+        if together.size:
+            yield real_time(f"{method}, a scan and its frames", together, "the same", periods[STATION_LRF])
 
 
 def _drive(setup: Setup, steps: int) -> tuple[list[Message], Calibration]:
@@ -44,12 +49,26 @@ def _drive(setup: Setup, steps: int) -> tuple[list[Message], Calibration]:
     return [m for m in messages if m.source in (STATION_LRF, STATION_CAMERA)], believed
 
 
-def _seconds_per_message(method: str, believed: Calibration, messages: Sequence[Message]) -> dict[str, Array]:
-    """By source, (M,) [s]; the first of each is left out, as methods prepare themselves with it."""
+def _seconds(method: str, believed: Calibration, messages: Sequence[Message]) -> list[tuple[str, float]]:
+    """Source and time [s] of each; the first of each source is left out, as methods prepare themselves with it."""
     estimator = ground_truth_estimator(method, believed)
-    taken: dict[str, list[float]] = {}
+    taken: list[tuple[str, float]] = []
+    known: set[str] = set()
     for message in messages:
         start = time.perf_counter()
         estimator.update(message)
-        taken.setdefault(message.source, []).append(time.perf_counter() - start)
-    return {source: np.array(values[1:]) for source, values in taken.items() if len(values) > 1}
+        if message.source in known:
+            taken.append((message.source, time.perf_counter() - start))
+        known.add(message.source)
+    return taken
+
+
+def _between_scans(taken: Sequence[tuple[str, float]]) -> Array:
+    """Time from each scan to the next, that one not included (N,) [s]."""
+    sums: list[float] = []
+    for source, seconds in taken:
+        if source == STATION_LRF:
+            sums.append(0.0)
+        if sums:
+            sums[-1] += seconds
+    return np.array(sums[:-1])

@@ -7,6 +7,7 @@ from typer.testing import CliRunner
 
 from benchmarks.bench import peers, run
 from benchmarks.bench.memory import ROLLUP, unique_memory
+from benchmarks.bench.methods import estimators
 from benchmarks.bench.plain import PlainArena
 from benchmarks.bench.report import duration, left_out, number, report_json, tables
 from benchmarks.bench.rows import GROUPS, Memory, Row, Skipped, cost, faster, real_time
@@ -100,6 +101,14 @@ def test_a_renderer_that_cannot_show_the_room_is_left_out_with_its_reason(setup,
 def test_a_reset_is_compared_with_a_step(setup):
     (row,) = reset(setup)
     assert (row.group, row.against) == ("cost", "one env step")
+
+
+def test_a_method_is_timed_for_a_scan_with_its_frames_too(setup):
+    rows = {row.what: row for row in estimators(setup)}
+    together = rows["fused, a scan and its frames"]
+    parts = rows["fused, per scan"].seconds + 3 * rows["fused, per frame"].seconds
+    assert together.against_seconds == pytest.approx(0.1)
+    assert 0.3 < together.seconds / parts < 3.0
 
 
 def test_vector_environments_are_counted_per_environment(setup):
