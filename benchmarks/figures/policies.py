@@ -11,8 +11,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from benchmarks.evaluation.episode import Episode
-from benchmarks.figures.map import draw_room
+from benchmarks.figures.map import WALL, draw_room, draw_station
 from benchmarks.figures.style import ESTIMATED, REAL, WIDTH, new_figure
+from estimators.poses import Pose2
 from estimators.room import Room
 
 FAILED: Final = ESTIMATED[0]
@@ -27,23 +28,28 @@ def ways_figure(episodes: Mapping[str, Sequence[Episode]], room: Room, radius: f
     rows = -(-len(episodes) // COLUMNS)
     low_x, low_y, high_x, high_y = room.bounds
     aspect = (high_y - low_y + 0.5) / (high_x - low_x + 0.5)
-    height = rows * (WIDTH / COLUMNS * aspect + 0.5) + 0.3
+    height = rows * (WIDTH / COLUMNS * aspect + 0.25) + 0.6
     figure, axes = new_figure(WIDTH, height, rows=rows, columns=COLUMNS, sharex=True, sharey=True)
     for ax, (name, driven) in zip(axes, episodes.items(), strict=False):
         draw_room(ax, room, margin=0.15)
+        draw_station(ax, Pose2())
         draw_ways(ax, driven[:SHOWN], radius)
         share = np.mean([e.success for e in driven])
         ax.set_title(f"{name}: {100 * share:.1f} % of {len(driven)}")
         ax.label_outer()
     for ax in axes[len(episodes) :]:
         ax.set_axis_off()
+    for ax in axes[: len(episodes)][-COLUMNS:]:  # the last of each column, also beside an empty place
+        ax.tick_params(labelbottom=True)
+        ax.set_xlabel("x [m]")
     handles = [
         Line2D([], [], color=REAL, label="true way, success"),
         Line2D([], [], color=FAILED, label="true way, failure"),
         Line2D([], [], color="#333333", marker="o", ms=3, ls="none", label="start"),
         Line2D([], [], color=GOAL, marker="o", mfc="none", ms=6, ls="none", label="goal"),
+        Line2D([], [], color=WALL, marker="^", ms=7, ls="none", label="station"),
     ]
-    figure.legend(handles=handles, loc="outside upper center", ncols=4)
+    figure.legend(handles=handles, loc="outside upper center", ncols=5)
     return figure
 
 
