@@ -15,7 +15,7 @@ from estimators.poses import Pose2
 from estimators.room import Room
 
 DEG = math.pi / 180
-Motion = Literal["unicycle", "skid", "holonomic"]
+Motion = Literal["unicycle", "steered", "skid", "holonomic"]
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -117,8 +117,10 @@ class Calibration:
         lrf: The laser rangefinder.
         camera: The camera on its pan unit.
         target: The target.
-        motion: How what carries the target can move: `unicycle` along its heading only, `skid` beside it too where it
-            turns, as four wheels that cannot be steered make it, `holonomic` in any direction.
+        motion: How what carries the target can move: `unicycle` along its heading only, `steered` likewise with a
+            steered axle, whose wheels never roll quite the same way, `skid` beside it too where it turns, as four
+            wheels that cannot be steered make it, `holonomic` in any direction.
+        turning_center: How far ahead of its base the point lies about which a `skid` robot turns on the spot.
     """
 
     room: Room
@@ -126,3 +128,4 @@ class Calibration:
     camera: CameraCalibration = field(default_factory=CameraCalibration)
     target: TargetGeometry = field(default_factory=TargetGeometry)
     motion: Motion = "unicycle"
+    turning_center: float = 0.0

@@ -11,7 +11,8 @@ import numpy as np
 
 from estimators.calibration import Calibration, Motion
 from estimators.clock import on_lrf_clock
-from estimators.fused.motion import Holonomic, MotionModel, Skidding, Unicycle
+from estimators.fused.holonomic import Point
+from estimators.fused.models import motion_model
 from estimators.fused.readings import MarkerReading, PositionReading
 from estimators.fused.timeline import Timeline
 from estimators.fused.track import Track
@@ -19,12 +20,6 @@ from estimators.marker_fit import MarkerFit, MarkerMeasurement
 from estimators.messages import ImageFrame, LaserScan, Message, PoseEstimate
 from estimators.poses import Array, Pose2
 from estimators.scan_model import PositionFix, ScanModel
-
-MODELS: Final[dict[Motion, type[MotionModel]]] = {
-    "unicycle": Unicycle,
-    "skid": Skidding,
-    "holonomic": Holonomic,
-}
 
 LEAST_ODDS: Final = 10.0
 """Log odds of a target being there below which a fix is not believed."""
@@ -85,7 +80,7 @@ class FusedEstimator:
         self._lrf = calibration.lrf.pose
         self._curve = calibration.lrf.noise_sigma**2 / calibration.target.radius
         self._camera = calibration.camera
-        self._model = MODELS[motion or calibration.motion]()
+        self._model = motion_model(motion or calibration.motion, calibration)
         self.reset()
 
     def reset(self) -> None:
@@ -166,7 +161,7 @@ class FusedEstimator:
             self._begin(fix, None)
 
     def _begin(self, fix: PositionReading, seen: MarkerReading | None) -> None:
-        self._track = Track(Holonomic() if seen is None else self._model, fix, seen, self._keep)
+        self._track = Track(Point() if seen is None else self._model, fix, seen, self._keep)
         self.tracks = [*(self.tracks if self._keep else ()), self._track]
         self._fix_stamp, self._lost = fix.stamp, None
         self._missed = self._refused = 0

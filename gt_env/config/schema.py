@@ -32,7 +32,7 @@ from gt_env.config.sections import (
 )
 from gt_env.config.shape import robot_shape
 
-MOTIONS: dict[str, Motion] = {"skid_steer": "skid", "omni3": "holonomic"}
+MOTIONS: dict[str, Motion] = {"skid_steer": "skid", "ackermann": "steered", "omni3": "holonomic"}
 """How robots move that do not only along their heading."""
 BELIEF_SECTIONS = ("room", "target", "lrf", "camera", "pan", "onboard")
 
@@ -92,6 +92,7 @@ class EnvConfig:
             camera=self.camera.calibration(self.pan),
             target=self.target.calibration(),
             motion=MOTIONS.get(self.robot.model, "unicycle"),
+            turning_center=self.robot.turning_center,
         )
 
     @property

@@ -1,14 +1,20 @@
 import numpy as np
 import pytest
 
+from estimators.fused.holonomic import Holonomic, Point
 from estimators.fused.mode_filter import ModeFilter
-from estimators.fused.motion import BIASES, CENTRE, Holonomic, Mode, Skidding, Unicycle
+from estimators.fused.motion import BIASES, Mode
+from estimators.fused.rolling import AHEAD, CENTRE, Skidding, Steered, Unicycle
 
 STATES = {
     Unicycle: [[1.0, 2.0, 0.7, 0.4, -1.2, 0.8], [-2.0, 1.0, -3.0, -0.3, 2.0, -1.5]],
-    Skidding: [[1.0, 2.0, 0.7, 0.4, -1.2, 0.8], [-2.0, 1.0, -3.0, -0.3, 2.0, -1.5]],
+    Steered: [[1.0, 2.0, 0.7, 0.4, -1.2, 0.8, 1.1], [-2.0, 1.0, -3.0, -0.3, 2.0, -1.5, -0.7]],
+    Skidding: [[1.0, 2.0, 0.7, 0.4, -1.2, 0.8, 1.1, 0.4], [-2.0, 1.0, -3.0, -0.3, 2.0, -1.5, -0.7, 0.3]],
     Holonomic: [[1.0, 2.0, 0.7, 0.4, 0.2, -1.2], [-2.0, 1.0, -3.0, -0.3, 0.1, 2.0]],
+    Point: [[1.0, 2.0, 0.7, 0.4, 0.2, -1.2], [-2.0, 1.0, -3.0, -0.3, 0.1, 2.0]],
 }
+MODELS = [Unicycle(), Steered(), Skidding(), Holonomic(), Point()]
+every_model = pytest.mark.parametrize("model", MODELS, ids=lambda m: type(m).__name__)
 
 
 def states_of(model):
@@ -16,7 +22,7 @@ def states_of(model):
     return np.hstack([STATES[type(model)], [np.linspace(-0.5, 0.5, BIASES), np.zeros(BIASES)]])
 
 
-@pytest.mark.parametrize("model", [Unicycle(), Skidding(), Holonomic()])
+@every_model
 def test_the_derivatives_of_the_motion_are_those_of_finite_differences(model):
     states, dt, h = states_of(model), 0.1, 1e-6
     _, F = model.step(states, dt)
@@ -27,7 +33,7 @@ def test_the_derivatives_of_the_motion_are_those_of_finite_differences(model):
         assert F[:, :, j] == pytest.approx(slope, abs=1e-8)
 
 
-@pytest.mark.parametrize("model", [Unicycle(), Skidding(), Holonomic()])
+@every_model
 def test_the_noise_of_two_steps_is_that_of_one_twice_as_long(model):
     states = states_of(model)
     states[:, 3:-BIASES] = 0.0  # the heading stays what it is
@@ -39,19 +45,20 @@ def test_the_noise_of_two_steps_is_that_of_one_twice_as_long(model):
     assert (np.linalg.eigvalsh(once) > -1e-12).all()
 
 
-@pytest.mark.parametrize("model", [Unicycle(), Skidding(), Holonomic()])
-def test_only_motion_along_the_heading_is_noisy_for_a_unicycle(model):
+@every_model
+def test_only_motion_along_the_heading_is_noisy_for_a_robot_that_rolls(model):
     states = states_of(model)
     states[:, 4 if isinstance(model, Unicycle) else 5] = 0.0
-    Q = model.noise(states, 0.1, np.ones((2, 2)))
+    Q = model.noise(states, 0.1, np.array([[1.0, 0.0], [1.0, 0.0]]))
     for yaw, block in zip(states[:, 2], Q[:, :2, :2], strict=True):
         aside = np.array([-np.sin(yaw), np.cos(yaw)])
         assert (aside @ block @ aside < 1e-12) == isinstance(model, Unicycle)
 
 
-def test_a_skidding_robot_turns_about_a_point_ahead_of_its_base():
-    model, ahead = Skidding(), 0.1
-    state = np.array([[0.0, 0.0, 0.3, 0.0, 0.5, ahead / CENTRE, *np.zeros(BIASES)]])
+def test_a_skidding_robot_turns_on_the_spot_about_the_point_that_it_is_told():
+    ahead, off = 0.1, 0.02
+    model = Skidding(ahead - off)
+    state = np.array([[0.0, 0.0, 0.3, 0.0, 0.5, off / CENTRE, 0.0, 0.0, *np.zeros(BIASES)]])
     centre = ahead * np.array([np.cos(0.3), np.sin(0.3)])
     for _ in range(100):
         state, _ = model.step(state, 0.02)
@@ -60,6 +67,27 @@ def test_a_skidding_robot_turns_about_a_point_ahead_of_its_base():
     assert model.velocities(state)[0] == pytest.approx(
         0.05 * np.array([np.sin(state[0, 2]), -np.cos(state[0, 2])])
     )
+
+
+@pytest.mark.parametrize(("v", "omega"), [(0.5, 1.2), (0.5, -1.2), (-0.5, 1.2), (-0.5, -1.2)])
+def test_a_skidding_robot_slides_to_the_outside_of_its_curve(v, omega):
+    state = np.array([[0.0, 0.0, 0.0, v, omega, 0.0, 0.0, 0.0, *np.zeros(BIASES)]])
+    inside = v * omega  # acceleration to the left
+    _, aside = Skidding().velocities(state)[0]
+    assert aside == pytest.approx(-np.sign(inside) * AHEAD[0] * abs(v) * omega**2)
+
+
+@pytest.mark.parametrize("model", [Unicycle(), Steered(), Skidding()])
+def test_a_slide_that_does_not_last_fades_and_its_variance_stays_one(model):
+    states = states_of(model)
+    slides = slice(5, 5 + len(model.lasting))
+    after, F = model.step(states, 0.1)
+    kept = np.exp(-0.1 / np.array(model.lasting))
+    variance = kept**2 + np.diagonal(model.noise(states, 0.1, np.ones((2, 2))), axis1=1, axis2=2)[:, slides]
+
+    assert after[:, slides] == pytest.approx(states[:, slides] * kept)
+    assert np.diagonal(F, axis1=1, axis2=2)[:, slides] == pytest.approx(np.tile(kept, (2, 1)))
+    assert variance == pytest.approx(np.tile(1 + 0.1 * np.square(model.wandering), (2, 1)))
 
 
 def pose_of(states):

@@ -12,7 +12,7 @@ from gt_env.robot import action_for
 
 @pytest.mark.parametrize(
     ("model", "motion"),
-    [("differential", "unicycle"), ("ackermann", "unicycle"), ("skid_steer", "skid"), ("omni3", "holonomic")],
+    [("differential", "unicycle"), ("ackermann", "steered"), ("skid_steer", "skid"), ("omni3", "holonomic")],
 )
 def test_the_estimators_are_told_how_the_robot_can_move(model, motion):
     assert load_config({"robot": {"model": model}}).calibration().motion == motion

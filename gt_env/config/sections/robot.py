@@ -31,6 +31,8 @@ class RobotConfig:
         wheelbase: Distance between front and rear axle [m].
         turning_track: Track of the differential robot that turns as a `skid_steer` one does, as measured [m]; 0 for
             what follows from track and wheelbase where all wheels carry the same.
+        turning_center: How far ahead of its base a `skid_steer` robot turns on the spot, as measured [m]; what the
+            estimators start from.
         max_steering_deg: [deg].
         steering_rate_deg: How fast the wheels are steered [deg/s].
         wheel_radius: [m].
@@ -64,6 +66,7 @@ class RobotConfig:
     track: Positive = 0.215
     wheelbase: Positive = 0.12
     turning_track: NotNegative = 0.0
+    turning_center: Real = 0.0
     max_steering_deg: Annotated[float, Field(strict=True, gt=0, le=60)] = 30.0
     steering_rate_deg: Positive = 180.0
     wheel_radius: Positive = 0.045
