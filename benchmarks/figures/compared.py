@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from benchmarks.figures.style import PUBLISHED, WIDTH, new_figure
 
@@ -64,8 +64,20 @@ def draw_panel(ax: Axes, panel: Panel, colors: Mapping[str, str]) -> None:
     ax.set_title(panel.title, fontsize=8)
     if panel.log:
         ax.set_xscale("log")
-        ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
-        ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        ax.xaxis.set_minor_formatter(NullFormatter())
+        low, high = ax.get_xlim()
+        ticks = _ticks(low, high)
+        ax.set_xlim(min(low, ticks[0]), max(high, ticks[-1]))
+        ax.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
         ax.minorticks_off()
     ax.tick_params(axis="y", length=0)
+
+
+def _ticks(low: float, high: float) -> list[float]:
+    """Of a logarithmic axis, which they enclose: as many as there is room for."""
+    decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    if len(decades) > 3:
+        return [10.0**n for n in decades if len(decades) <= 5 or n % 2 == 0]
+    every = [factor * 10.0**n for n in decades for factor in (1, 3)]
+    first = max(i for i, tick in enumerate(every) if tick <= low)
+    last = min(i for i, tick in enumerate(every) if tick >= high)
+    return every[first : last + 1]

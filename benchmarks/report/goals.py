@@ -28,6 +28,7 @@ from gt_env.config import EnvConfig
 ONLINE, AFTER = "fused", "smooth"
 """Methods that the targets are for."""
 DRIVES = "path, tour, figure of eight"
+SITUATIONS = {"rest-still": "at rest", "rest-dithered": "at rest, dithered", "driving": "driving at random"}
 
 
 def reached_goals(config: EnvConfig, scores: Scores, rooms: RoomScores | None = None) -> list[Goal]:
@@ -64,6 +65,9 @@ def _rest_goals(targets: Targets, scores: Scores) -> Iterator[Goal]:
     if STILL in rest:
         yield millimetres("at rest after 10 s: RMSE", ONLINE, targets.rest, rest[STILL].rmse_xy)
         yield degrees("at rest after 10 s: heading", ONLINE, targets.rest_heading, rest[STILL].mae[2])
+    if STILL in scores.rest.get(AFTER, {}):
+        after = scores.rest[AFTER][STILL].rmse_xy
+        yield millimetres("100 scans together and their frames: RMSE", AFTER, targets.joint, after)
     if DITHERED in rest:
         swept = rest[DITHERED].mae[2]
         yield degrees("at rest after 10 s: heading, dithered", ONLINE, targets.rest_heading_dithered, swept)
@@ -98,7 +102,7 @@ def _alone_goals(scores: Scores) -> Iterator[Goal]:
 def _honest(situation: str, method: str, found: Consistency) -> Goal:
     """Every part's NEES within its bounds."""
     return Goal(
-        what=f"{situation}: NEES of pose, position, heading",
+        what=f"{SITUATIONS.get(situation, situation)}: NEES of pose, position, heading",
         method=method,
         unit="",
         asked=tuple((found.nees[part].low, found.nees[part].high) for part in PARTS),
@@ -110,7 +114,7 @@ def _honest(situation: str, method: str, found: Consistency) -> Goal:
 def _covered(situation: str, method: str, found: Consistency) -> Goal:
     low, high = COVERED
     return Goal(
-        what=f"{situation}: inside the 95 % ellipse",
+        what=f"{SITUATIONS.get(situation, situation)}: inside the 95 % ellipse",
         method=method,
         unit="%",
         asked=((100 * low, 100 * high),),

@@ -14,7 +14,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from benchmarks.published import thesis_average_mae
 from benchmarks.report.gallery.plate import Plate
 from benchmarks.report.scores import MM, TO_ERROR_UNITS, Scores, scaled, times
-from benchmarks.report.tables import NONE, Table
+from benchmarks.report.tables import Table, angle, number
 
 SECTIONS = {
     "station": "What the station measures",
@@ -60,16 +60,13 @@ def html_page(
 
 def _facts(scores: Scores, method: str) -> list[Fact]:
     """The headline: static errors and the largest moving one."""
-    x, y, yaw = scaled(scores.static_mae(method), TO_ERROR_UNITS)
+    mae = scores.static_mae(method)
+    x, y, _ = scaled(mae, TO_ERROR_UNITS)
     printed = thesis_average_mae() * (MM, MM, 1)
     path = scores.moving[method]["path"].largest[0]
     return [
-        Fact(value=_number(x, 1), unit="mm", what="static, x", published=f"{printed[0]:.1f} mm"),
-        Fact(value=_number(y, 1), unit="mm", what="static, y", published=f"{printed[1]:.1f} mm"),
-        Fact(value=_number(yaw, 2), unit="°", what="static, angle", published=f"{printed[2]:.2f}°"),
-        Fact(value=_number(times(path, MM), 0), unit="mm", what="driving, largest in x", published="120 mm"),
+        Fact(value=number(x, 1), unit="mm", what="static, x", published=f"{printed[0]:.1f} mm"),
+        Fact(value=number(y, 1), unit="mm", what="static, y", published=f"{printed[1]:.1f} mm"),
+        Fact(value=angle(mae[2]), unit="°", what="static, angle", published=f"{printed[2]:.2f}°"),
+        Fact(value=number(times(path, MM), 0), unit="mm", what="driving, largest in x", published="120 mm"),
     ]
-
-
-def _number(value: float | None, decimals: int) -> str:
-    return NONE if value is None else f"{value:.{decimals}f}"

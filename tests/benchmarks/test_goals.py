@@ -45,8 +45,8 @@ def test_all_that_was_simulated_is_held_against_its_target(found):
         ("valid from 2 s on, worst drive", "fused"),
         ("slip: RMSE and heading, worse by", "smooth"),
         ("whirl: valid from 2 s on", "fused"),
-        *((f"{kind}: inside the 95 % ellipse", "smooth") for kind in ("rest-still", "rest-dithered", "driving")),
-        *((f"{kind}: NEES of pose, position, heading", "fused") for kind in ("rest-still", "driving", "fast")),
+        *((f"{kind}: inside the 95 % ellipse", "smooth") for kind in ("at rest", "at rest, dithered")),
+        *((f"{kind}: NEES of pose, position, heading", "fused") for kind in ("at rest", "driving at random", "fast")),
     } <= asked  # fmt: skip
 
 
