@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -75,6 +76,13 @@ class _Curve(EvalCallback):
             self.evaluations_length = past["ep_lengths"].tolist()
             self.evaluations_successes = past["successes"].tolist() if "successes" in past else []
             self.best_mean_reward = float(past["results"].mean(axis=1).max())
+
+    def _init_callback(self) -> None:
+        with (
+            warnings.catch_warnings()
+        ):  # one environment is evaluated in this process, wherever many are trained in
+            warnings.filterwarnings("ignore", message="Training and eval env are not of the same type")
+            super()._init_callback()
 
 
 def train(run: Run, folder: Path, *, resume: bool, jobs: int, progress: Progress) -> int:

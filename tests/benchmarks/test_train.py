@@ -105,6 +105,18 @@ def test_the_same_seed_learns_the_same(sb3, tmp_path):
     assert all((learnt[0][k] == learnt[1][k]).all() for k in learnt[0])
 
 
+@pytest.mark.slow
+def test_environments_side_by_side_teach_the_same(sb3, tmp_path):
+    learnt = []
+    for jobs in (1, 2):
+        folder = tmp_path / str(jobs)
+        folder.mkdir()
+        sb3.train(tiny("ppo", 64), folder, resume=False, jobs=jobs, progress=lambda n: None)
+        learnt.append(weights(folder / POLICY, sb3))
+    for k in learnt[0]:  # the one rounds rewards to single precision, the other does not
+        assert learnt[0][k] == pytest.approx(learnt[1][k], abs=1e-4)
+
+
 def test_an_interrupt_leaves_a_checkpoint_that_acts(sb3, tmp_path):
     run = tiny("ppo", 10_000)
     run.write(tmp_path)
