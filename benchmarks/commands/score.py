@@ -20,7 +20,7 @@ from benchmarks.commands.options import (
     require_report_extra,
 )
 from benchmarks.driving import DRIVES
-from benchmarks.output import check_writable, staged
+from benchmarks.output import staged
 from benchmarks.paths import PATHS
 from benchmarks.scoring.live import PATHS_SCORED
 from benchmarks.scoring.request import Request
@@ -131,13 +131,14 @@ def score(
         align=align,
         max_gap=max_gap,
         calibration=(calibration_mm, calibration_deg),
-        record=out if record else None,
+        record=record,
     )
-    check_writable(out)
     console = Console(emoji=False)
-    result = carry_out(request, jobs=jobs, engine=Engine(name=engine, address=address), console=console)
-    setup = request.described(result)
     with staged(out) as folder:
+        result = carry_out(
+            request, jobs=jobs, engine=Engine(name=engine, address=address), console=console, folder=folder
+        )
+        setup = request.described(result)
         (folder / "report.json").write_text(result.json(setup), encoding="utf-8")
         if not no_figures:
             write_page(folder, result, request.room(), setup, console)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 from rich.console import Console
 
@@ -16,8 +18,15 @@ from benchmarks.scoring.write import Result
 from benchmarks.trajectory.csv_file import read_trajectory
 
 
-def carry_out(request: Request, *, jobs: int, engine: Engine, console: Console) -> Result:
+def carry_out(request: Request, *, jobs: int, engine: Engine, console: Console, folder: Path) -> Result:
     """Simulate, replay or read, and judge.
+
+    Args:
+        request: What is asked for.
+        jobs: How many runs at a time.
+        engine: Who runs them.
+        console: Where progress is shown.
+        folder: Where recordings are kept, if they are.
 
     Raises:
         ConfigError: If the set-up cannot be.
@@ -33,7 +42,7 @@ def carry_out(request: Request, *, jobs: int, engine: Engine, console: Console) 
     elif request.recordings:
         runs = _recorded(request, console)
     else:
-        tasks = request.live_runs()
+        tasks = request.live_runs(folder)
         plans = [task.plan() for task in tasks]  # what does not fit is said here, not by a worker
         runs = run_side_by_side(
             score_live,

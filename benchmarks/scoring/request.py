@@ -43,7 +43,7 @@ class Request:
         seed: Of everything.
         reference: Which of the station's answers counts.
         rules: How runs are judged.
-        record: Where recordings are kept; None for nowhere.
+        record: Whether recordings of the runs are kept.
         words: The command's own, to repeat it.
     """
 
@@ -58,7 +58,7 @@ class Request:
     seed: int
     reference: str
     rules: Rules
-    record: Path | None
+    record: bool
     words: tuple[str, ...]
 
     @classmethod
@@ -80,7 +80,7 @@ class Request:
         align: str = "none",
         max_gap: float = Rules().max_gap,
         calibration: tuple[float, float] = (0.0, 0.0),
-        record: Path | None = None,
+        record: bool = False,
     ) -> Request:
         """Check what was asked for.
 
@@ -104,7 +104,7 @@ class Request:
             )
         if (recordings or gt) and paths:
             raise ConfigError(f"--path {paths[0]}: nothing is driven beside --recording or --gt")
-        if (recordings or gt) and record is not None:
+        if (recordings or gt) and record:
             raise ConfigError("--record: there is nothing to record beside --recording or --gt")
         words = [*subjects, *(f"--trajectory={t}" for t in trajectories), *(f"--path={p}" for p in paths)]
         words += [f"--recording={r}" for r in recordings] + ([f"--gt={gt}"] if gt else [])
@@ -112,7 +112,14 @@ class Request:
         words += [f"--set={o}" for o in overrides]
         words += [f"--seeds={seeds}"] if seeds else []
         words += [f"--duration={duration:g}"] if duration else []
-        words += ["--quick"] * quick + [f"--seed={seed}", f"--reference={reference}", f"--align={align}"]
+        words += [f"--max-gap={max_gap:g}"] if max_gap != Rules().max_gap else []
+        words += [f"--calibration-mm={calibration[0]:g}"] if calibration[0] else []
+        words += [f"--calibration-deg={calibration[1]:g}"] if calibration[1] else []
+        words += (
+            ["--quick"] * quick
+            + ["--record"] * record
+            + [f"--seed={seed}", f"--reference={reference}", f"--align={align}"]
+        )
         return cls(
             subjects=found,
             paths=tuple(dict.fromkeys(path_named(p) for p in paths)) or PATHS_SCORED,
@@ -151,8 +158,11 @@ class Request:
         chosen = load_config(self.config) if self.config else recorded or load_config(CONFIG)
         return load_config(chosen, dict(self.overrides)).believed()
 
-    def live_runs(self) -> list[LiveRun]:
+    def live_runs(self, folder: Path) -> list[LiveRun]:
         """All runs, each with a seed of its own.
+
+        Args:
+            folder: Where recordings are kept, if they are.
 
         Raises:
             ConfigError: If a path does not fit into the room.
@@ -162,7 +172,7 @@ class Request:
         runs = []
         for number, child in enumerate(children):
             path, turn = self.paths[number // self.seeds], number % self.seeds
-            place = str(self.record / f"{path}-{turn}.mcap") if self.record else ""
+            place = str(folder / f"{path}-{turn}.mcap") if self.record else ""
             runs.append(
                 LiveRun(
                     config=settings,

@@ -67,8 +67,12 @@ def test_the_tutorial_runs_as_it_stands(command, tmp_path):
     assert len(lines) <= 20
     (tmp_path / "mine.py").write_text(code)
 
-    status, said = command("score", "mine:Mine", "odometry", "--path", "eight", *SHORT, "--no-figures")
+    status, said = command(
+        "score", "mine:Mine", "odometry", "--path", "eight", *SHORT, "--no-figures", "--record"
+    )
     assert status == 0, said
+    kept = sorted(path.name for path in (tmp_path / "out/score").iterdir())
+    assert kept == ["figure-of-eight-0.mcap", "report.json"]
     report = json.loads((tmp_path / "out/score/report.json").read_text())
 
     for name in ("mine:Mine", "odometry"):

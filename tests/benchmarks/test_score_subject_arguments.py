@@ -81,4 +81,16 @@ def test_a_constructor_that_fails_is_named_and_ends_nothing_else(folder):
 
 def test_nothing_can_be_recorded_that_is_not_driven(tmp_path):
     with pytest.raises(ConfigError, match="--record: there is nothing to record"):
-        Request.parsed(subjects=("odometry",), recordings=(tmp_path / "a.mcap",), record=tmp_path)
+        Request.parsed(subjects=("odometry",), recordings=(tmp_path / "a.mcap",), record=True)
+
+
+def test_the_command_in_a_report_says_all_that_was_asked_for():
+    asked = Request.parsed(
+        subjects=("odometry",), paths=("eight",), seeds=2, duration=5.0, seed=3, reference="smooth", align="se2",
+        max_gap=0.1, calibration=(2.0, 0.1), record=True, overrides=("robot.slip=0.1",), config="narrow",
+    )  # fmt: skip
+    assert set(asked.words) == {
+        "odometry", "--path=eight", "--config=narrow", "--set=robot.slip=0.1", "--seeds=2", "--duration=5",
+        "--max-gap=0.1", "--calibration-mm=2", "--calibration-deg=0.1", "--record", "--seed=3",
+        "--reference=smooth", "--align=se2",
+    }  # fmt: skip
