@@ -14,10 +14,10 @@ import numpy as np
 
 from estimators.poses import Array
 
-BIASES: Final = 7
+BIASES: Final = 8
 """Biases of what is measured: the last states of every model, each in units of its standard deviation. Of the image:
 two for the pixels that markers' edges fall on, one for those of the target's limbs, one for its shape, one for its
-width; of the scan's fix: along and across the line of sight."""
+width, one for where its markers stand; of the scan's fix: along and across the line of sight."""
 
 
 CREEP: Final = np.square([1e-4, 1e-4, 1e-4])

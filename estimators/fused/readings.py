@@ -14,8 +14,8 @@ from estimators.poses import Array, Pose2
 from estimators.scan_model import PositionFix
 
 YAW: Final = 2
-IMAGE_BIASES: Final = slice(0, 5)
-SCAN_BIASES: Final = slice(5, 7)
+IMAGE_BIASES: Final = slice(0, 6)
+SCAN_BIASES: Final = slice(6, 8)
 MOST_LASTING: Final = 0.95
 """Largest share of a frame's variance that is taken to last; the rest keeps the filter well conditioned."""
 MOST_ASIDE: Final = 0.8
@@ -211,7 +211,11 @@ class MarkerReading:
         scale = seen.sensitivity * seen.scale_error * seen.distance
         object.__setattr__(self, "R", (1 - share) * rest)
         object.__setattr__(
-            self, "lasting", np.column_stack([math.sqrt(share) * np.linalg.cholesky(rest), aside, scale])
+            self,
+            "lasting",
+            np.column_stack(
+                [math.sqrt(share) * np.linalg.cholesky(rest), aside, scale, [0.0, seen.marker_error]]
+            ),
         )
 
     @property
@@ -257,7 +261,7 @@ class MarkerReading:
         passed, turned = self._moved(before, velocities, turning)
         image, limbs = self.seen.kept(before.seen, passed, turned)
         shape = np.exp(-turned / SHAPE_TURN)
-        return np.stack([image, image, limbs, shape, shape], axis=1)
+        return np.stack([image, image, limbs, shape, shape, shape], axis=1)
 
     def plausible(
         self, before: MarkerReading, velocities: Array, turning: Array, log_likelihood: Array

@@ -187,6 +187,7 @@ class MarkerFit:
             systematic=max(problem.systematic, 1 - 1 / max(1.0, solution.misfit)),
             limb_error=problem.lasting_limb * math.cos(axis) ** 2 / self._camera.focal,
             shape_error=problem.middle_error,
+            marker_error=problem.markers_aside / self._target.radius,
             lean=float(covariance[0, 1] / covariance[0, 0]),
             scale_error=problem.scale_error,
             view=np.array([float(self._camera.column(known)), (yaw - axis) * pixels[1]]),

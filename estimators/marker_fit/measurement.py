@@ -44,6 +44,8 @@ class MarkerMeasurement:
             however it turns [rad].
         shape_error: How far the middle between the limbs may lie beside the target's axis, standard deviation [m];
             it lasts while the target shows the same side.
+        marker_error: How far the markers seen may stand aside on the target, together, standard deviation [rad]; it
+            lasts while the target shows the same side.
         lean: How much the yaw is off where the limbs have moved the bearing, both at the same distance.
         scale_error: Standard deviation of the image's scale, as a share: what the width of the target, and with it
             the sensitivity, may be off.
@@ -70,6 +72,7 @@ class MarkerMeasurement:
     systematic: float
     limb_error: float
     shape_error: float
+    marker_error: float
     lean: float
     scale_error: float
     view: Array

@@ -24,6 +24,9 @@ MOST_MIXED = 0.2
 """Where pixels average over their area most edges cut one; up to this share may seem to where they do not."""
 SAMPLED_SHAPE = 0.0006
 """How far a renderer that samples draws facets off the cylinder's tangent, standard deviation [m]."""
+SAMPLED_MARKERS = 0.00023
+"""How far aside it draws the markers that are seen, together, for the facets they stand on, standard deviation [m]
+(simulated over all pixel grids, bearing apart: 0.22 to 0.25 mm)."""
 SAMPLED_LIMB = 0.12
 """Deviation of a bearing that markers on ever other pixels leave of it [px] (simulated: 0.11)."""
 SHAPE = 1e-5
@@ -119,6 +122,11 @@ class Problem:
     def middle_error(self) -> float:
         """Standard deviation of the middle between the limbs, for the target's shape alone [m]."""
         return (SAMPLED_SHAPE if self.quantised else SHAPE) / math.sqrt(2)
+
+    @property
+    def markers_aside(self) -> float:
+        """Standard deviation of where the markers stand, together, for the target's shape alone [m]."""
+        return SAMPLED_MARKERS if self.quantised else 0.0
 
     @property
     def scale_error(self) -> float:

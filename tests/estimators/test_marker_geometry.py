@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 from estimators import CameraCalibration, TargetGeometry
+from estimators.fused.mode_filter import ModeFilter
 from estimators.fused.readings import SHAPE_TURN, MarkerReading
+from estimators.fused.rolling import Unicycle
 from estimators.marker_fit import CameraModel
 from estimators.marker_fit.measurement import SAME_PIXELS, MarkerMeasurement
 from estimators.marker_fit.outline import TargetOutline
@@ -98,6 +100,7 @@ def measurement():
         systematic=0.5,
         limb_error=0.0,
         shape_error=1e-5,
+        marker_error=1e-4,
         lean=5.0,
         scale_error=1e-3,
         view=np.zeros(2),
@@ -142,7 +145,7 @@ def test_what_lasts_follows_how_the_robot_moves_and_not_what_a_frame_says(measur
     before, after = MarkerReading(measurement, Pose2(), 0.5), MarkerReading(aside, Pose2(), 0.53)
     rest, turn = after.kept(before, np.zeros((2, 2)), np.array([0.0, 4.0]))
     np.testing.assert_allclose(rest, 1.0)
-    np.testing.assert_allclose(turn, [0, 0, 1, *[math.exp(-0.4 / SHAPE_TURN)] * 2])
+    np.testing.assert_allclose(turn, [0, 0, 1, *[math.exp(-0.4 / SHAPE_TURN)] * 3])
 
 
 def test_a_camera_that_turns_with_the_target_sees_the_same(measurement):
@@ -177,3 +180,22 @@ def test_samples_that_stay_the_same_say_little_against_a_slow_turn_and_changed_o
     panned = dataclasses.replace(changed, direction=changed.direction + 0.001)
     for seen in (averaging, panned):
         assert said(seen).tolist() == gaussian.tolist()
+
+
+def test_no_number_of_frames_of_one_side_says_where_its_markers_stand(measurement):
+    """A camera that sweeps averages over pixels, not over the shape of what it sees."""
+    f = ModeFilter(Unicycle())
+    target = measurement.distance * np.array([math.cos(1.2), math.sin(1.2)]) + measurement.camera
+    f.start(*target, measurement.yaw)
+    place = np.diag(np.square([1e-6, 1e-6]))
+    f.update(target, lambda s: (s[:, :2], np.tile(np.eye(2, s.shape[1]), (len(s), 1, 1))), place, [], np.inf)
+    seen = dataclasses.replace(measurement, marker_error=3e-3, shape_error=0.0, systematic=0.9)
+    before, still = MarkerReading(seen, Pose2(), 0.5), np.zeros((len(Unicycle.modes), 2))
+    for i in range(400):
+        panned = dataclasses.replace(seen, direction=1.2 + 0.002 * (i % 2))
+        reading = MarkerReading(panned, Pose2(), 0.5)
+        f.forget(reading.biases, reading.kept(before, still, np.zeros(len(still))))
+        f.update(reading.z, reading.expected, reading.R, reading.angles, np.inf)
+        before = reading
+    yaw = math.sqrt(f.combined()[1][2, 2])
+    assert 3e-3 < yaw < 3.3e-3
