@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
@@ -10,9 +10,16 @@ from scipy.sparse import diags_array
 from scipy.sparse.linalg import splu
 
 from estimators.poses import Array
+from estimators.self_calibration.corner_rows import CornerSightings, corner_rows
 from estimators.self_calibration.places import Places, RadiusEvidence
 from estimators.self_calibration.quantities import PRIOR, Q
-from estimators.self_calibration.rows import Rows, bend_rows, place_rows, sighting_rows, width_rows
+from estimators.self_calibration.rows import (
+    Rows,
+    bend_rows,
+    place_rows,
+    sighting_rows,
+    width_rows,
+)
 from estimators.self_calibration.sightings import Sightings
 from estimators.self_calibration.track import Knots
 from estimators.self_calibration.walls import Walls
@@ -40,6 +47,7 @@ class Evidence:
         radius: What the scans say of it; None if nothing.
         sightings: Of the target, by the camera; may be empty.
         image_height: [px].
+        corners: Of the room, by the camera; may be empty.
     """
 
     walls: Walls
@@ -47,6 +55,7 @@ class Evidence:
     radius: RadiusEvidence | None
     sightings: Sightings
     image_height: int
+    corners: CornerSightings = field(default_factory=CornerSightings.none)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -115,6 +124,8 @@ def _rows(evidence: Evidence, values: Array, knots: Knots, track: Array) -> dict
         rows["columns"] = sighting_rows(evidence.sightings, values, evidence.image_height, knots, track)
         if np.isfinite(evidence.sightings.distances).any():
             rows["widths"] = width_rows(evidence.sightings, values, evidence.image_height, knots, track)
+    if len(evidence.corners):
+        rows["corners"] = corner_rows(evidence.corners, values, evidence.image_height, track)
     return rows
 
 

@@ -21,6 +21,8 @@ ROUGHNESS: Final = 5e-4
 """What the smooth curve does not follow: starts, stops, play of the target, standard deviation [m]."""
 WIDTH_ERROR: Final = 0.07
 """Standard deviation of the target's width in an image whose pixels average over their area [px]."""
+WIDTH_BIAS: Final = 0.01
+"""What all widths of a recording have in common: blur, and which pixels are used [px]."""
 GLANCE: Final = 0.5
 """Over which it is judged whether the target moves [s]."""
 CREEPING: Final = 0.03
@@ -147,7 +149,9 @@ def width_rows(sightings: Sightings, values: Array, height: int, knots: Knots, t
     slopes[:, Q.RADIUS], slopes[:, Q.FOV] = 1 / values[Q.RADIUS], focal_slope / focal
     slopes[:, [Q.CAMERA_X, Q.CAMERA_Y]] = by_place
     slopes[:, Q.CLOCK_OFFSET] = (by_place * knots.at(track, times, derivative=1)).sum(axis=1)
-    sigma = np.hypot(WIDTH_ERROR * distance / (2 * scale), ROUGHNESS / distance)
+    # As many frames as you like leave the common error: each counts for as much less.
+    width_error = np.hypot(WIDTH_ERROR, WIDTH_BIAS * np.sqrt(len(times)))
+    sigma = np.hypot(width_error * distance / (2 * scale), ROUGHNESS / distance)
     entries = -(by_place[:, None, :] * weights[:, :, None]).reshape(-1, 8) / sigma[:, None]
     return Rows(
         residual=np.log(distances / distance * scale / sightings.scale) / sigma,

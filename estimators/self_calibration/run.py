@@ -13,6 +13,8 @@ from estimators.calibration import Calibration
 from estimators.errors import RecordingError
 from estimators.messages import LaserScan, Message
 from estimators.poses import Array
+from estimators.self_calibration.corner_rows import CornerSightings
+from estimators.self_calibration.corners import CornerFinder
 from estimators.self_calibration.joint import Evidence, Solution, solve
 from estimators.self_calibration.places import (
     Places,
@@ -122,9 +124,13 @@ def self_calibrate(
     better = with_vector(believed, values)
     places = find_places(scans, better, watch, solution.velocity)
     radius = _radius(scans, places, better, watch, rough=False)
+    corners = CornerSightings.none()
     if len(sightings):
-        sightings = find_sightings(frames, better, _Known(solution, places), watch)
-    evidence = Evidence(walls, places, radius, sightings, height)
+        known = _Known(solution, places)
+        finder = CornerFinder(better, solution.covariance, known)
+        sightings = find_sightings(frames, better, known, watch, finder.look)
+        corners = finder.sightings
+    evidence = Evidence(walls, places, radius, sightings, height, corners)
     solution = solve(evidence, values, start)
     return SelfCalibration(start, solution, evidence)
 

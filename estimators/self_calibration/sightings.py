@@ -64,7 +64,11 @@ class Sightings:
 
 
 def find_sightings(
-    frames: Sequence[Message], calibration: Calibration, place: Place, watch: Watch
+    frames: Sequence[Message],
+    calibration: Calibration,
+    place: Place,
+    watch: Watch,
+    also: Callable[[ImageFrame], None] | None = None,
 ) -> Sightings:
     """Measure the target in every frame that shows it clearly.
 
@@ -73,6 +77,7 @@ def find_sightings(
         calibration: As far as it is known; the pan offset to about half the target's width.
         place: Of the target.
         watch: Shows progress.
+        also: Is shown every frame: a recording's are read from disk once more for each who asks.
 
     Raises:
         MeasurementError: If a frame is not of the calibrated size.
@@ -83,6 +88,8 @@ def find_sightings(
         measured = _measure(fit, frame, calibration, place)
         if measured is not None:
             seen.append((frame.stamp, frame.pan, measured))
+        if also is not None and isinstance(frame, ImageFrame):
+            also(frame)
     before = [None, *(m for _, _, m in seen[:-1])] if seen else []
     focal = camera.focal
     columns = np.array([m.view[0] for _, _, m in seen])

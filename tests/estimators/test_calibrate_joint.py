@@ -1,10 +1,13 @@
 """Quantities from made-up scans and sightings: what is planted is found, and what cannot be known is said so."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from estimators import RecordingError
 from estimators.messages import LaserScan
+from estimators.self_calibration.corner_rows import CornerSightings, corner_derivatives
 from estimators.self_calibration.joint import Evidence, solve
 from estimators.self_calibration.places import Places, RadiusEvidence
 from estimators.self_calibration.quantities import NAMES, PRIOR, Q, values_of, with_vector
@@ -73,6 +76,25 @@ def test_what_is_planted_is_found_and_the_standard_errors_say_how_well(calibrati
     assert np.abs(errors).max() < 4.0  # 108 of them
     # Chi-square with 108 degrees of freedom, correlated; the larger of two covariances makes it a little less.
     assert 0.5 < (errors**2).mean() < 1.4
+
+
+def test_corners_of_the_room_say_where_the_camera_looks_better_than_the_target_does(calibration):
+    shares = []
+    for seed in range(4):
+        rng = np.random.default_rng(seed)
+        measured, believed, true = evidence(calibration, eight, rng)
+        points = np.repeat([[-4.0, 4.0], [4.0, 4.0]], 40, axis=0)
+        pans = np.repeat([2.3, 0.7], 40) + rng.uniform(-0.2, 0.2, 80)
+        columns, _ = corner_derivatives(points, pans, true, 240)
+        columns += rng.normal(0.0, 0.1, 80)
+        seen = CornerSightings(rng.uniform(0.0, 40.0, 80), pans, columns, np.full(80, 0.1), points)
+        before = solve(measured, believed, believed)
+        after = solve(replace(measured, corners=seen), believed, believed)
+        errors = np.sqrt(np.diag(after.covariance))
+        assert np.abs((after.values - true) / errors)[Q.PAN_OFFSET : Q.FOV + 1].max() < 4.0
+        shares.append(errors / np.sqrt(np.diag(before.covariance)))
+    assert np.mean(shares, axis=0)[[Q.PAN_OFFSET, Q.FOV]].max() < 0.5
+    assert np.mean(shares, axis=0).max() < 1.1
 
 
 def test_a_target_at_rest_tells_neither_the_time_nor_the_lens(calibration):
