@@ -21,6 +21,7 @@ from benchmarks.parallel import SweepError
 from benchmarks.published import SAMPLES
 from benchmarks.rollout import Rollout, joined
 from benchmarks.sweep import sweep
+from estimators.errors import ConfigError
 from gt_env.config import EnvConfig
 
 Task = Run | Course | ScanRun
@@ -144,8 +145,12 @@ def plan_validation(
     """Lay out all runs, each with a seed of its own.
 
     Raises:
-        ConfigError: If a test point or a drive does not fit into the room.
+        ConfigError: If there is no rangefinder, or a test point or a drive does not fit into the room.
     """
+    if not config.lrf.enabled:
+        raise ConfigError(
+            "lrf.enabled = false: must be true to validate; every method finds the target by it"
+        )
     effort = QUICK if quick else FULL
     seeds = np.random.SeedSequence(seed).spawn(8)
     for_static, for_moving, for_further, for_scans, for_rest, for_dithered, for_driving, for_stress = seeds

@@ -5,6 +5,7 @@ import subprocess
 import sys
 import time
 
+import numpy as np
 import pytest
 
 from benchmarks.commands import validate as command
@@ -14,7 +15,7 @@ from estimators.errors import ConfigError, MissingExtraError
 
 def gt_env(*arguments, **options):
     # A wide terminal: tables must not be folded for the assertions.
-    environment = {**os.environ, "COLUMNS": "140"}
+    environment = {**os.environ, "COLUMNS": "140", **options.pop("environment", {})}
     return subprocess.Popen(
         [sys.executable, "-m", "benchmarks", "validate", *arguments],
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, **options,
@@ -31,6 +32,13 @@ def refuse_to_simulate(monkeypatch):
 def test_an_unknown_method_is_refused(tmp_path):
     with pytest.raises(ConfigError, match="--method magic: must be one of thesis"):
         command.validate(method=["magic"], out=tmp_path)
+
+
+def test_a_station_without_a_rangefinder_is_refused(tmp_path, monkeypatch):
+    refuse_to_simulate(monkeypatch)
+    with pytest.raises(ConfigError, match=r"lrf\.enabled = false: must be true"):
+        command.validate(overrides=["lrf.enabled=false"], no_figures=True, out=tmp_path / "out")
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_missing_extra_is_named_before_anything_is_simulated(tmp_path, monkeypatch):
@@ -78,12 +86,17 @@ def test_the_report_does_not_depend_on_the_number_of_jobs(tmp_path):
 def test_ctrl_c_ends_promptly_and_leaves_nothing_half_written(tmp_path):
     out = tmp_path / "out"
     run = gt_env(
-        "--quick", "--out", str(out), start_new_session=True,
+        "--quick", "--out", str(out), start_new_session=True, environment={"TMPDIR": str(tmp_path)},
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # a background job ignores it
     )  # fmt: skip
-    time.sleep(5)
+    started = time.monotonic()
+    while time.monotonic() < started + 100:
+        counted = [np.fromfile(path, np.int64) for path in tmp_path.glob("gt-env-*/steps")]
+        if any(np.count_nonzero(steps) >= 3 for steps in counted):
+            break  # the sweep is under way: both processes have had a run
+        time.sleep(0.2)
     os.killpg(run.pid, signal.SIGINT)
-    printed, _ = run.communicate(timeout=10)
+    printed, _ = run.communicate(timeout=20)
     assert run.returncode == 130
     assert "Traceback" not in printed
     assert not out.exists()
