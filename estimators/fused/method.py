@@ -200,7 +200,7 @@ class FusedEstimator:
         """A frame as the filter takes it; `yaw` is the target's, as known before [rad]."""
         side, view = yaw - seen.bearing, self._view
         if view is not None and view.shows_side(side, seen.distance):
-            return MarkerReading(seen.steadied(view.seen), self._mount, side)
+            return MarkerReading(seen.steadied(view.seen), self._mount, side, view)
         self._view = MarkerReading(seen, self._mount, side)
         return self._view
 

@@ -188,6 +188,7 @@ class MarkerReading:
         mount: Of the target on the robot.
         side: Yaw of the target less its bearing, as known before the frame: which side it shows [rad]. A single frame
             says it so much worse that lasting errors would fade at rest.
+        view: The first reading of the same view, if there was one before.
         R: See `Reading`.
         lasting: What one standard deviation of each of its biases does to bearing and yaw (2, k) [rad].
     """
@@ -195,6 +196,7 @@ class MarkerReading:
     seen: MarkerMeasurement
     mount: Pose2
     side: float
+    view: MarkerReading | None = None
     R: Array = field(init=False)
     lasting: Array = field(init=False)
 
@@ -209,14 +211,14 @@ class MarkerReading:
         rest = covariance - own @ own.T
         share = min(seen.systematic, MOST_LASTING)
         scale = seen.sensitivity * seen.scale_error * seen.distance
+        pixels = math.sqrt(share) * np.linalg.cholesky(rest)
+        lasting = np.column_stack([pixels, aside, scale, [0.0, seen.marker_error]])
+        if self.view is not None and not seen.quantised:
+            # How large an error is said to be that lasts must not change while it does, as noise would have it: the
+            # filter would take the difference between frames for a sign of the error.
+            lasting = self.view.lasting
         object.__setattr__(self, "R", (1 - share) * rest)
-        object.__setattr__(
-            self,
-            "lasting",
-            np.column_stack(
-                [math.sqrt(share) * np.linalg.cholesky(rest), aside, scale, [0.0, seen.marker_error]]
-            ),
-        )
+        object.__setattr__(self, "lasting", lasting)
 
     @property
     def stamp(self) -> float:

@@ -71,7 +71,7 @@ def test_what_lasts_fades_as_other_beams_meet_the_target(reading):
         before.curve,
     )
     speeds = np.array([0.0, 0.01, 0.5])[:, None] * axes[:, 1]
-    kept = after.kept(before, speeds)
+    kept = after.kept(before, speeds, np.zeros(3))
     assert kept[0].tolist() == [1.0, 1.0]
     assert 0 < kept[1, 0] < 1
     assert kept[2].tolist() == [0.0, 0.0]
