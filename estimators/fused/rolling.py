@@ -123,18 +123,19 @@ class Steered(Unicycle):
         )
 
 
-CENTRE: Final = 0.01
-"""How far from where it is believed a skid-steered robot's centre of turning may lie, standard deviation [m]."""
-CENTRE_WALK: Final = 0.001
-"""How fast it wanders, as the load on the wheels changes [m/s^0.5]."""
+CENTRE: Final = 0.01, 0.2
+"""How far from where it is believed a skid-steered robot's centre of turning may lie, standard deviation: so much [m]
+and such a share of how far that is ahead of the base, as a robot with much of it is large, and loaded unevenly."""
+CENTRE_WALK: Final = 0.1
+"""How fast it wanders, as the load on the wheels changes, in that standard deviation [1/s^0.5]."""
 AHEAD: Final = 0.05, 0.03
 """How far it moves ahead in a curve, over speed and turn rate: mean and standard deviation [s^2]. To go along a curve
 takes a force to its inside, which sliding wheels have if they slide outwards. With friction mu and wheels that slide at
 omega rho, omega sigma of it along them, it is rho^3 / (sigma^2 mu g): 0.03 for small robots, 0.1 for large ones."""
-UNEVEN: Final = 0.02
+UNEVEN: Final = 0.03
 """The same for a part that changes all the time, as floor and tyres are not the same everywhere and in every direction
 [s^2]."""
-UNEVEN_LASTING: Final = 0.3
+UNEVEN_LASTING: Final = 0.2
 """How long that stays what it is [s]."""
 JOLT: Final = 0.001
 """How far it jumps sideways as its turn rate changes, standard deviation [m per rad/s]: the wheels must first slide as
@@ -153,10 +154,11 @@ class Skidding(Unicycle):
 
     size = 8 + BIASES
     lasting = (np.inf, np.inf, UNEVEN_LASTING)
-    wandering = (CENTRE_WALK / CENTRE, 0.0, 0.0)
+    wandering = (CENTRE_WALK, 0.0, 0.0)
 
     def __init__(self, centre: float = 0.0) -> None:
-        self._means = np.array([centre / CENTRE, AHEAD[0] / AHEAD[1], 0.0])
+        self.centre_sigma = CENTRE[0] + CENTRE[1] * abs(centre)
+        self._means = np.array([centre / self.centre_sigma, AHEAD[0] / AHEAD[1], 0.0])
 
     def means(self) -> Array:
         """See `Unicycle`."""
@@ -167,9 +169,9 @@ class Skidding(Unicycle):
         rate = np.abs(omega)
         by = -np.array([AHEAD[1], UNEVEN])[:, None]
         return (
-            np.stack([-CENTRE * omega, *(by * v * omega * rate)]),
+            np.stack([-self.centre_sigma * omega, *(by * v * omega * rate)]),
             np.stack([np.zeros_like(v), *(by * omega * rate)]),
-            np.stack([np.full_like(v, -CENTRE), *(by * 2 * v * rate)]),
+            np.stack([np.full_like(v, -self.centre_sigma), *(by * 2 * v * rate)]),
         )
 
     def noise(self, states: Array, dt: float, densities: Array) -> Array:
