@@ -84,8 +84,8 @@ def find_walls(scans: Sequence[LaserScan], room: Room, values: Array, noise: flo
         RecordingError: If hardly any reading is of a wall.
     """
     ranges = np.stack([np.asarray(s.ranges, float) for s in scans])
-    far = scans[0].range_max
-    useful = np.isfinite(ranges) & (ranges > max(scans[0].range_min, 0.0)) & (ranges < np.float32(far))
+    near, far = max(scans[0].range_min, 0.0), scans[0].range_max
+    useful = np.isfinite(ranges) & (ranges > near) & (ranges < np.float32(far))
     bearings, gate, sigma = scans[0].bearings, START_GATE, max(noise, 1e-4)
     values = values.copy()
     for _ in range(ROUNDS):
@@ -93,7 +93,9 @@ def find_walls(scans: Sequence[LaserScan], room: Room, values: Array, noise: flo
         clear = (
             np.isfinite(expected)
             & (np.abs(slopes[:, Q.LRF_YAW]) < MOST_OBLIQUE * expected)
+            # What is cut off at either end of the scanner's reach would shift the mean of the rest.
             & (expected < far - GATE * sigma)
+            & (expected > near + GATE * sigma)
         )
         of_wall = useful & clear & (np.abs(ranges - np.where(clear, expected, 0.0)) < gate)
         counts = of_wall.sum(axis=0)

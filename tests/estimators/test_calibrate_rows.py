@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from estimators import Pose2
+from estimators.messages import LaserScan
 from estimators.self_calibration.corner_rows import CornerSightings, corner_rows
 from estimators.self_calibration.places import Places
 from estimators.self_calibration.quantities import Q, values_of, with_vector
@@ -165,3 +166,28 @@ def test_walls_give_pose_and_bias_of_the_lrf(calibration, ideal_scan):
     expected, slopes = expected_ranges(calibration.room, walls.bearings, found)
     assert np.abs(walls.means - expected).max() < 1e-3
     assert slopes[:, Q.RANGE_BIAS] == pytest.approx(1.0)
+
+
+def test_walls_too_near_for_the_scanner_shift_nothing(calibration):
+    """The wall behind the LRF is 3 cm away; what noise takes below the least range, the scanner does not report."""
+    rng, true = np.random.default_rng(1000), values_of(calibration)
+    bearings = np.radians(np.arange(-45.0, 225.0, 0.5))
+    expected, _ = expected_ranges(calibration.room, bearings, true)
+    scans = []
+    for i in range(150):
+        ranges = expected + rng.normal(0.0, 0.03, len(bearings))
+        ranges = np.where(ranges < 0.05, 30.0, ranges)
+        scans.append(
+            LaserScan(
+                stamp=0.1 * i,
+                ranges=ranges,
+                bearing_min=float(bearings[0]),
+                bearing_increment=float(np.radians(0.5)),
+                range_min=0.05,
+                range_max=30.0,
+            )
+        )
+    _, found = find_walls(scans, calibration.room, true, 0.03)
+    assert (
+        np.abs(found[[Q.LRF_X, Q.LRF_Y, Q.RANGE_BIAS]] - true[[Q.LRF_X, Q.LRF_Y, Q.RANGE_BIAS]]).max() < 6e-4
+    )
