@@ -11,7 +11,9 @@ import numpy as np
 from estimators.calibration import Calibration
 from estimators.errors import ConfigError
 from estimators.fused import FusedEstimator
-from estimators.fused.readings import MarkerReading, PositionReading, Reading
+from estimators.fused.frame_reading import MarkerReading
+from estimators.fused.readings import Reading
+from estimators.fused.scan_reading import PositionReading
 from estimators.messages import PoseEstimate
 from estimators.poses import Array
 from estimators.protocol import METHODS

@@ -7,8 +7,8 @@ from collections.abc import Iterable
 import numpy as np
 
 from estimators.calibration import Calibration, Motion
+from estimators.fused.frame_reading import MarkerReading
 from estimators.fused.method import BLIND_AFTER, FusedEstimator
-from estimators.fused.readings import MarkerReading
 from estimators.fused.smoother import smoothed
 from estimators.messages import Message, PoseEstimate
 

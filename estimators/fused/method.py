@@ -11,9 +11,10 @@ import numpy as np
 
 from estimators.calibration import Calibration, Motion
 from estimators.clock import on_lrf_clock
+from estimators.fused.frame_reading import MarkerReading
 from estimators.fused.holonomic import Point
 from estimators.fused.models import motion_model
-from estimators.fused.readings import MarkerReading, PositionReading
+from estimators.fused.scan_reading import PositionReading
 from estimators.fused.timeline import Timeline
 from estimators.fused.track import Track
 from estimators.marker_fit import MarkerFit, MarkerMeasurement

@@ -7,9 +7,11 @@ from typing import Final
 
 import numpy as np
 
+from estimators.fused.frame_reading import MarkerReading
 from estimators.fused.mode_filter import Innovation, ModeFilter
 from estimators.fused.motion import MotionModel
-from estimators.fused.readings import MarkerReading, PositionReading, Reading
+from estimators.fused.readings import Reading
+from estimators.fused.scan_reading import PositionReading
 from estimators.poses import Array, Pose2
 
 GATE: Final = 18.4

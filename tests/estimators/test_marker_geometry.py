@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from estimators import CameraCalibration, TargetGeometry
+from estimators.fused.frame_reading import SHAPE_TURN, MarkerReading
 from estimators.fused.mode_filter import ModeFilter
-from estimators.fused.readings import SHAPE_TURN, MarkerReading
 from estimators.fused.rolling import Unicycle
 from estimators.marker_fit import CameraModel
 from estimators.marker_fit.measurement import SAME_PIXELS, MarkerMeasurement

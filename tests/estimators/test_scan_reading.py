@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from estimators.fused.motion import BIASES
-from estimators.fused.readings import SCAN_BIASES, PositionReading
+from estimators.fused.readings import SCAN_BIASES
+from estimators.fused.scan_reading import PositionReading
 from estimators.poses import Pose2
 from estimators.scan_model import PositionFix
 

@@ -1,0 +1,149 @@
+"""What a frame shows of the target, in the form that the filter takes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+
+from estimators.fused.motion import BIASES
+from estimators.fused.readings import IMAGE_BIASES, YAW, target_of
+from estimators.marker_fit import MarkerMeasurement
+from estimators.poses import Array, Pose2
+
+MOST_LASTING: Final = 0.95
+"""Largest share of a frame's variance that is taken to last; the rest keeps the filter well conditioned."""
+MOST_ASIDE: Final = 0.8
+"""Largest share of a bearing's variance that limbs and shape are taken for."""
+SHAPE_TURN: Final = 0.2
+"""Turn of the target over which errors of its shape are replaced by others [rad]: a fifth of the angle between
+markers, which are what the camera compares."""
+SAME_SIDE: Final = 0.02
+"""How far the target turns [rad], or how much nearer it comes, as a share of the distance, until frames begin anew to
+say how bearing and yaw follow the distance. Geometry changes that by some tenths of itself over a radian."""
+FLICKER: Final = 1e-6
+"""How likely an edge is to pass a sample between two frames of a target at rest: it must lie right on it."""
+
+
+@dataclass(frozen=True, slots=True)
+class MarkerReading:
+    """Bearing and yaw of the target in a frame, with biases that last.
+
+    Attributes:
+        seen: What the frame said.
+        mount: Of the target on the robot.
+        side: Yaw of the target less its bearing, as known before the frame: which side it shows [rad]. A single frame
+            says it so much worse that lasting errors would fade at rest.
+        view: The first reading of the same view, if there was one before.
+        R: See `Reading`.
+        lasting: What one standard deviation of each of its biases does to bearing and yaw (2, k) [rad].
+    """
+
+    seen: MarkerMeasurement
+    mount: Pose2
+    side: float
+    view: MarkerReading | None = None
+    R: Array = field(init=False)
+    lasting: Array = field(init=False)
+
+    def __post_init__(self) -> None:
+        seen, covariance = self.seen, self.seen.covariance
+        # Limbs and shape are part of the frame's own covariance, and the yaw follows the bearing as it does there.
+        sigma = np.array([seen.limb_error, seen.shape_error / seen.distance])
+        most = math.sqrt(MOST_ASIDE * float(covariance[0, 0]))
+        sigma *= min(1.0, most / max(float(np.hypot(*sigma)), 1e-12))
+        own = np.outer([1.0, covariance[0, 1] / covariance[0, 0]], sigma)
+        aside = np.outer([1.0, seen.lean], sigma)
+        rest = covariance - own @ own.T
+        share = min(seen.systematic, MOST_LASTING)
+        scale = seen.sensitivity * seen.scale_error * seen.distance
+        pixels = math.sqrt(share) * np.linalg.cholesky(rest)
+        lasting = np.column_stack([pixels, aside, scale, [0.0, seen.marker_error]])
+        if self.view is not None and not seen.quantised:
+            # How large an error is said to be that lasts must not change while it does, as noise would have it: the
+            # filter would take the difference between frames for a sign of the error.
+            lasting = self.view.lasting
+        object.__setattr__(self, "R", (1 - share) * rest)
+        object.__setattr__(self, "lasting", lasting)
+
+    @property
+    def stamp(self) -> float:
+        """See `Reading`."""
+        return self.seen.stamp
+
+    @property
+    def z(self) -> Array:
+        """See `Reading`."""
+        return np.array([self.seen.bearing, self.seen.yaw])
+
+    @property
+    def biases(self) -> slice:
+        """See `Reading`."""
+        return IMAGE_BIASES
+
+    @property
+    def angles(self) -> Array:
+        """See `Reading`."""
+        return np.array([True, True])
+
+    def expected(self, states: Array) -> tuple[Array, Array]:
+        """See `Reading`."""
+        seen = self.seen
+        target, turn = target_of(states, self.mount)
+        d = target - seen.camera
+        distance = np.hypot(d[:, 0], d[:, 1])
+        ray = d / distance[:, None]
+        n = states.shape[1]
+        slopes = np.zeros((len(states), 2, n))
+        slopes[:, 0, 0], slopes[:, 0, 1] = -ray[:, 1] / distance, ray[:, 0] / distance
+        slopes[:, :, :2] -= seen.sensitivity[:, None] * ray[:, None, :]
+        slopes[:, :, YAW] = (slopes[:, :, :2] @ turn[:, :, None])[:, :, 0]
+        slopes[:, 1, YAW] += 1.0
+        slopes[:, :, n - BIASES :][:, :, IMAGE_BIASES] = self.lasting
+        reading = np.stack([np.arctan2(d[:, 1], d[:, 0]), states[:, YAW] + self.mount.yaw], axis=1)
+        reading -= seen.sensitivity * (distance - seen.distance)[:, None]
+        return reading + states[:, -BIASES:][:, IMAGE_BIASES] @ self.lasting.T, slopes
+
+    def kept(self, before: MarkerReading, velocities: Array, turning: Array) -> Array:
+        """See `Reading`."""
+        passed, turned = self._moved(before, velocities, turning)
+        image, limbs = self.seen.kept(before.seen, passed, turned)
+        shape = np.exp(-turned / SHAPE_TURN)
+        return np.stack([image, image, limbs, shape, shape, shape], axis=1)
+
+    def plausible(
+        self, before: MarkerReading, velocities: Array, turning: Array, log_likelihood: Array
+    ) -> Array:
+        """See `Reading`.
+
+        An error that is the same in every frame until an edge passes a sample is not Gaussian: that the samples are
+        still the same speaks against a slow turn only as far as one should have changed, and that one has changed
+        speaks against rest, however little it changes what is read.
+        """
+        same = self.seen.same_samples(before.seen)
+        if same is None:
+            return log_likelihood
+        crossings = self.seen.crossings(*self._moved(before, velocities, turning))
+        if same:
+            return -crossings
+        return log_likelihood + np.log(np.maximum(-np.expm1(-crossings), FLICKER))
+
+    def _moved(self, before: MarkerReading, velocities: Array, turning: Array) -> tuple[Array, Array]:
+        """Change of the bearing (M,) since a frame before, and how far the side that is seen has turned (M,) [rad]."""
+        dt = abs(self.stamp - before.stamp)
+        across = np.array([-math.sin(self.seen.bearing), math.cos(self.seen.bearing)])
+        passed = velocities @ across * dt / self.seen.distance
+        return passed, turning * dt + np.abs(passed)
+
+    def shows_side(self, side: float, distance: float) -> bool:
+        """Whether a target that shows a side [rad] at a distance [m] shows the same as here, from as far away."""
+        turned = abs(math.remainder(side - self.side, 2 * math.pi))
+        return max(turned, abs(distance / self.seen.distance - 1)) < SAME_SIDE
+
+    def first_pose(self, target: Array) -> Pose2:
+        """Pose of the base if the target is at a position (2,) [m] and looks as it does."""
+        pose = Pose2(x=float(target[0]), y=float(target[1]), yaw=self.seen.yaw) @ self.mount.inverse()
+        assert math.isfinite(pose.yaw)
+        return pose
