@@ -8,7 +8,8 @@ from benchmarks.report.consistency import consistency_tables
 from benchmarks.report.goal import Goal, goal_table
 from benchmarks.report.rooms import room_tables
 from benchmarks.report.scores import Scores
-from benchmarks.report.summary_table import blind_table, drive_table, limit_table, stress_table, summary_table
+from benchmarks.report.stress import stress_table
+from benchmarks.report.summary_table import blind_table, drive_table, limit_table, summary_table
 from benchmarks.report.tables import Table, all_tables
 from benchmarks.rooms import RoomScores
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from benchmarks.metrics import root_mean_square
+from benchmarks.report.cells import SCORED, honest_cells, honest_note, score_cells
 from benchmarks.report.consistency import consistency_json
 from benchmarks.report.scores import MM, ScanScore, times
 from benchmarks.report.summary import limit_json, score_json
-from benchmarks.report.summary_table import SCORED, honest_cells, score_cells
 from benchmarks.report.tables import NONE, Table, number
 from benchmarks.rooms import RoomScores
 
@@ -43,14 +43,13 @@ def room_tables(scores: RoomScores) -> list[Table]:
         ),
         Table(
             title=f"The same: robots that drive about at random ({scores.effort.drives} each)",
-            head=("", "method", *SCORED, "honest", "inside 95 % [%]"),
+            head=("", "method", *SCORED, "inside 95 % [%]"),
             rows=tuple(
                 (name, method, *score_cells(s)[:-1], *honest_cells(of.honesty.get(method)))
                 for name, of in scores.settings.items()
                 for method, s in of.driving.items()
             ),
-            note=SAME + "heading: mean absolute error. NEES: mean over runs, one sample of each; honest: between what "
-            "that of an honest covariance lies, 998 times in 1000.",
+            note=SAME + "heading: mean absolute error. " + honest_note(of.honesty for of in scores.settings.values()),
             section="rooms",
         ),
     ]  # fmt: skip

@@ -1,27 +1,15 @@
-"""What a validation comes to, one column per method; and its scans beside their limit, and the harder drives."""
+"""What a validation comes to, one column per method; its drives, and its scans beside their limit."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from benchmarks.consistency import Consistency
 from benchmarks.experiments.scans import TOGETHER
-from benchmarks.experiments.stress import SECONDS
 from benchmarks.metrics import Score, root_mean_square
+from benchmarks.report.cells import SCORED, millimetres, score_cells
 from benchmarks.report.scores import MM, Scores, least_valid, times
 from benchmarks.report.tables import NONE, Table, angle, named, number
 from benchmarks.validation import DITHERED, STILL
-
-SCORED = ("RMSE [mm]", "max [mm]", "heading [deg]", "99 % [deg]", "valid [%]", "NEES")
-"""Heads of the columns that `_cells` fills."""
-COMPARED = ("swept", "slip", "uneven-slip")
-"""Hard drives that are the usual ones but for one thing."""
-HARD = (
-    "Robots are steered along their way by somebody who sees them. usual: path, tour and figure of eight; swept: the "
-    "same with scans that take half their period; slip: with wheels that lose 5 % of their way; uneven-slip: each "
-    "wheel a random 2 % more or less, anew every 0.1 m; fast: 1.2 m/s at 2 m or more from the camera; whirl: "
-    "360 deg/s on the spot. heading: mean absolute error. more: RMSE beside that of the usual drives. "
-)
 
 
 def summary_table(scores: Scores) -> Table:
@@ -78,7 +66,7 @@ def blind_table(scores: Scores) -> Table:
 
 
 def _mm_cells(s: Score) -> tuple[str, str]:
-    return _mm(s.rmse_xy), _mm(s.max_xy)
+    return millimetres(s.rmse_xy), millimetres(s.max_xy)
 
 
 def _rows(scores: Scores) -> Iterator[tuple[str, ...]]:
@@ -86,11 +74,11 @@ def _rows(scores: Scores) -> Iterator[tuple[str, ...]]:
     for kind, said in ((STILL, ""), (DITHERED, ", dithered")):
         of = [scores.rest[m][kind] for m in methods if kind in scores.rest[m]]
         if of:
-            yield f"at rest after 10 s{said}: RMSE [mm]", *(_mm(s.rmse_xy) for s in of)
+            yield f"at rest after 10 s{said}: RMSE [mm]", *(millimetres(s.rmse_xy) for s in of)
             yield f"at rest after 10 s{said}: heading, mean error [deg]", *(angle(s.mae[2]) for s in of)
     travels = [scores.travels[m] for m in methods]
-    yield "path, tour, figure of eight: RMSE [mm]", *(_mm(s.rmse_xy) for s in travels)
-    yield "path, tour, figure of eight: largest error [mm]", *(_mm(s.max_xy) for s in travels)
+    yield "path, tour, figure of eight: RMSE [mm]", *(millimetres(s.rmse_xy) for s in travels)
+    yield "path, tour, figure of eight: largest error [mm]", *(millimetres(s.max_xy) for s in travels)
     yield "path, tour, figure of eight: heading, mean error [deg]", *(angle(s.mae[2]) for s in travels)
     yield "path, tour, figure of eight: heading, 99 % [deg]", *(angle(s.p99_yaw) for s in travels)
     for drive, said in (("spin", ""), ("spin-dithered", ", dithered")):
@@ -150,58 +138,3 @@ def limit_table(scores: Scores) -> Table:
         "the worst point over its limit.",
         section="limits",
     )  # fmt: skip
-
-
-def stress_table(scores: Scores) -> Table:
-    """Harder drives."""
-    rows = []
-    for kind in next(iter(scores.stress.values())):
-        for method in scores.methods:
-            s, usual = scores.stress[method][kind], scores.stress[method].get("usual")
-            more = None
-            if kind in COMPARED and usual is not None and s.rmse_xy is not None and usual.rmse_xy:
-                more = s.rmse_xy / usual.rmse_xy - 1
-            rows.append(
-                (
-                    *named(kind, method, scores),
-                    *score_cells(s)[:-1],
-                    *honest_cells(scores.stress_honesty[kind].get(method)),
-                    number(times(more, 100), 0),
-                )
-            )
-    return Table(
-        title=f"Harder drives, the first {SECONDS:g} s of each ({_runs(scores)})",
-        head=(*named("drive", "method", scores), *SCORED, "honest", "inside 95 % [%]", "more [%]"),
-        rows=tuple(rows),
-        note=HARD
-        + "NEES: mean over runs, one sample of each; honest: what that of an honest covariance lies in, "
-        "998 times in 1000.",
-        section="stress",
-    )
-
-
-def _runs(scores: Scores) -> str:
-    """How often each was driven."""
-    judged = {
-        kind: next(iter(of.values())).nees["pose"].runs for kind, of in scores.stress_honesty.items() if of
-    }
-    return ", ".join(f"{kind} {n}" for kind, n in judged.items())
-
-
-def honest_cells(found: Consistency | None) -> tuple[str, str, str]:
-    """NEES over runs, between what it should lie, and the share inside the 95 % ellipse."""
-    if found is None:
-        return NONE, NONE, NONE
-    nees = found.nees["pose"]
-    share = number(100 * found.coverage[-1].share, 0)
-    return number(nees.mean, 1), f"{nees.low:.1f} to {nees.high:.1f}", share
-
-
-def score_cells(s: Score) -> tuple[str, ...]:
-    """For the columns `SCORED`."""
-    valid = number(times(s.valid_later, 100), 1)
-    return _mm(s.rmse_xy), _mm(s.max_xy), angle(s.mae[2]), angle(s.p99_yaw), valid, number(s.nees, 2)
-
-
-def _mm(value: float | None) -> str:
-    return number(times(value, MM), 1)

@@ -1,0 +1,49 @@
+"""Harder drives as a table."""
+
+from __future__ import annotations
+
+from benchmarks.experiments.stress import SECONDS
+from benchmarks.report.cells import SCORED, honest_cells, honest_note, score_cells
+from benchmarks.report.scores import Scores, times
+from benchmarks.report.tables import Table, named, number
+
+COMPARED = ("swept", "slip", "uneven-slip")
+"""Hard drives that are the usual ones but for one thing."""
+HARD = (
+    "Robots are steered along their way by somebody who sees them. usual: path, tour and figure of eight; swept: the "
+    "same with scans that take half their period; slip: with wheels that lose 5 % of their way; uneven-slip: each "
+    "wheel a random 2 % more or less, anew every 0.1 m; fast: 1.2 m/s at 2 m or more from the camera; whirl: "
+    "360 deg/s on the spot. heading: mean absolute error. more: RMSE beside that of the usual drives. "
+)
+
+
+def stress_table(scores: Scores) -> Table:
+    """Harder drives."""
+    rows = []
+    for kind in next(iter(scores.stress.values())):
+        for method in scores.methods:
+            s, usual = scores.stress[method][kind], scores.stress[method].get("usual")
+            more = None
+            if kind in COMPARED and usual is not None and s.rmse_xy is not None and usual.rmse_xy:
+                more = s.rmse_xy / usual.rmse_xy - 1
+            rows.append(
+                (
+                    *named(kind, method, scores),
+                    *score_cells(s)[:-1],
+                    *honest_cells(scores.stress_honesty[kind].get(method)),
+                    number(times(more, 100), 0),
+                )
+            )
+    return Table(
+        title=f"Harder drives, the first {SECONDS:g} s of each{_runs(scores)}",
+        head=(*named("drive", "method", scores), *SCORED, "inside 95 % [%]", "more [%]"),
+        rows=tuple(rows),
+        note=HARD + honest_note(scores.stress_honesty.values()),
+        section="stress",
+    )
+
+
+def _runs(scores: Scores) -> str:
+    """How often each was driven."""
+    n = {c.nees["pose"].runs for of in scores.stress_honesty.values() for c in of.values()}
+    return f", {n.pop()} runs each" if len(n) == 1 else ""
