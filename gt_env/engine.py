@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import os
-import sys
 import tempfile
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, nullcontext
+from collections.abc import Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +15,7 @@ from estimators.errors import ConfigError, MissingExtraError
 from estimators.poses import Array
 from gt_env.body import Body
 from gt_env.config.sections import Color, LightConfig, PhysicsConfig
+from gt_env.quiet import quiet
 from gt_env.robot_model import RobotModel
 from gt_env.software_camera import View, picture
 
@@ -136,7 +135,7 @@ class Engine:
             try:
                 flags = p.URDF_USE_IMPLICIT_CYLINDER
                 flags |= 0 if model.own_inertia else p.URDF_USE_INERTIA_FROM_FILE
-                with _quiet() if not model.own_inertia else nullcontext():
+                with quiet() if not model.own_inertia else nullcontext():
                     number = p.loadURDF(str(path), flags=flags, physicsClientId=client)
             except p.error as error:
                 raise ConfigError(f"robot.urdf: cannot be loaded: {error}") from None
@@ -241,25 +240,8 @@ def find_urdf(file: str) -> Path:
 
 def _import_pybullet() -> Any:
     try:
-        with _quiet():
+        with quiet():
             import pybullet
     except ImportError:
         raise MissingExtraError("the simulator", "pybullet", "sim") from None
     return pybullet
-
-
-@contextmanager
-def _quiet() -> Iterator[None]:
-    """Keep the banner that the engine's library prints when it is loaded out of our output."""
-    sys.stdout.flush()
-    sys.stderr.flush()
-    kept = [(fd, os.dup(fd)) for fd in (1, 2)]
-    with open(os.devnull, "w") as sink:
-        for fd, _ in kept:
-            os.dup2(sink.fileno(), fd)
-    try:
-        yield
-    finally:
-        for fd, copy in kept:
-            os.dup2(copy, fd)
-            os.close(copy)

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gt_env.fast_camera.compiling import compiled
+from gt_env.fast_camera.layout import record
 from gt_env.fast_camera.solids import Floats
-from gt_env.fast_camera.tables import record
 
 CAPACITY = 192
 MOST_ROWS = 4098

@@ -7,11 +7,11 @@ import math
 from gt_env.fast_camera.bands import FAR_BELOW, Bands, start
 from gt_env.fast_camera.compiling import compiled
 from gt_env.fast_camera.crossing import cut_box, cut_disc, row_of
+from gt_env.fast_camera.layout import FLOOR, MARKERS, Tables
 from gt_env.fast_camera.placed import Placed
 from gt_env.fast_camera.receivers import level_shadow
 from gt_env.fast_camera.robot import paint_robot, robot_depth
 from gt_env.fast_camera.shadow import BY_BODY, BY_TARGET
-from gt_env.fast_camera.tables import FLOOR, MARKERS, Tables
 from gt_env.fast_camera.upright import paint_box, paint_face, tube
 
 INSIDE = 1e-6
@@ -52,24 +52,10 @@ def _floor(scene: Tables, placed: Placed, bands: Bands, ka: float, kb: float) ->
         placed.lit[FLOOR, 4],
     )
     if scene.shadow:
-        cut = min(
-            cut,
-            level_shadow(
-                scene,
-                placed,
-                bands,
-                scene.colors[FLOOR],
-                placed.facing[FLOOR, 4],
-                BY_TARGET + BY_BODY,
-                0.0,
-                ka,
-                kb,
-                scene.lens[3],
-                scene.lens[3],
-                end_a,
-                end_b,
-            ),
-        )
+        near, far = (scene.lens[3], scene.lens[3]), (end_a, end_b)
+        color, facing = scene.colors[FLOOR], placed.facing[FLOOR, 4]
+        casts = BY_TARGET + BY_BODY
+        cut = min(cut, level_shadow(scene, placed, bands, color, facing, casts, 0.0, (ka, kb), near, far))
     return cut
 
 

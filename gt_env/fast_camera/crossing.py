@@ -8,9 +8,9 @@ from __future__ import annotations
 import math
 
 from gt_env.fast_camera.compiling import compiled
+from gt_env.fast_camera.layout import Tables
 from gt_env.fast_camera.placed import Placed
 from gt_env.fast_camera.solids import Floats
-from gt_env.fast_camera.tables import Tables
 
 NOTHING = 1e30
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from gt_env.fast_camera.compiling import compiled
+from gt_env.fast_camera.layout import MARKERS, Tables
 from gt_env.fast_camera.placed import EDGES, Placed
-from gt_env.fast_camera.tables import MARKERS, Tables
 
 TANGENT_STEPS = (0.1, 0.4, 1.1)
 """Where slabs end next to a round thing's limb [px], whose outline turns fast there."""

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from gt_env.fast_camera.bands import Bands, deposit
 from gt_env.fast_camera.column import fill
 from gt_env.fast_camera.compiling import compiled
+from gt_env.fast_camera.layout import Tables
 from gt_env.fast_camera.placed import Placed
-from gt_env.fast_camera.tables import Tables
 
 ROBOT_STEP, WHEEL_STEP = 1.0, 1.0
 """Widest slab in which robot and wheels are drawn [px]."""

@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gt_env.fast_camera.layout import Tables
 from gt_env.fast_camera.placed import Placed
 from gt_env.fast_camera.solids import Floats
-from gt_env.fast_camera.tables import Tables
 
 BEYOND = 1e9
 """A row outside of every picture."""

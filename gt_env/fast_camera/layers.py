@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from gt_env.fast_camera.crossing import NOTHING
 from gt_env.fast_camera.layer_wheels import BEYOND, Layer, ball_layers, shade_all, wheel_layers
+from gt_env.fast_camera.layout import BODY, FLOOR, MARKERS, Tables
 from gt_env.fast_camera.placed import Placed
 from gt_env.fast_camera.solids import Floats
-from gt_env.fast_camera.tables import BODY, FLOOR, MARKERS, Tables
 
 ROBOT_STEP, ROOM_STEP = 0.25, 1.0
 """Width of slabs with and without the robot [px]."""

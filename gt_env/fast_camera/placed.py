@@ -12,8 +12,8 @@ from typing import Protocol, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from gt_env.fast_camera.layout import MOST_BOXES, MOST_LAMPS, MOST_PILLARS, MOST_WHEELS, record
 from gt_env.fast_camera.solids import Floats
-from gt_env.fast_camera.tables import MOST_BOXES, MOST_LAMPS, MOST_PILLARS, MOST_WHEELS, record
 
 MOST_SHADOWS = 2 * MOST_LAMPS
 EDGES = 2048

@@ -6,8 +6,8 @@ import math
 
 from gt_env.fast_camera.compiling import compiled
 from gt_env.fast_camera.edges import TANGENT_STEPS, add_column, add_edge, add_shadow_edges, limbs
+from gt_env.fast_camera.layout import Tables
 from gt_env.fast_camera.placed import Placed
-from gt_env.fast_camera.tables import Tables
 
 
 @compiled

@@ -5,6 +5,7 @@ from __future__ import annotations
 from gt_env.fast_camera.bands import Bands
 from gt_env.fast_camera.compiling import compiled
 from gt_env.fast_camera.crossing import row_of
+from gt_env.fast_camera.layout import Tables
 from gt_env.fast_camera.placed import Placed
 from gt_env.fast_camera.shadow import (
     BY_BODY,
@@ -18,7 +19,6 @@ from gt_env.fast_camera.shadow import (
     shaded,
 )
 from gt_env.fast_camera.solids import Floats
-from gt_env.fast_camera.tables import Tables
 
 
 @compiled
@@ -30,15 +30,13 @@ def level_shadow(
     facing: Floats,
     casts: int,
     z: float,
-    ka: float,
-    kb: float,
-    first_a: float,
-    first_b: float,
-    last_a: float,
-    last_b: float,
+    slab: tuple[float, float],
+    near: tuple[float, float],
+    far: tuple[float, float],
 ) -> float:
-    """Shadows on a level face of a colour, with cosines (L,) to the lamps, between two depths."""
+    """Shadows on a level face of a colour, with cosines (L,) to the lamps, between its depths at the slab's sides."""
     clear_shadows(placed)
+    ka, kb = slab
     km = 0.5 * (ka + kb)
     for lamp in range(scene.lamp_count):
         for caster in (BY_TARGET, BY_BODY):
@@ -53,13 +51,13 @@ def level_shadow(
                 begin_a, end_a = first, last
             if end_b <= begin_b:
                 begin_b, end_b = first, last
-            top_a, top_b = row_of(scene, z, min(end_a, last_a)), row_of(scene, z, min(end_b, last_b))
-            low_a, low_b = row_of(scene, z, max(begin_a, first_a)), row_of(scene, z, max(begin_b, first_b))
+            top_a, top_b = row_of(scene, z, min(end_a, far[0])), row_of(scene, z, min(end_b, far[1]))
+            low_a, low_b = row_of(scene, z, max(begin_a, near[0])), row_of(scene, z, max(begin_b, near[1]))
             add_shadow(placed, lamp, top_a, top_b, low_a, low_b)
     if placed.shadow_count == 0:
         return 1.0
-    top_a, top_b = row_of(scene, z, last_a), row_of(scene, z, last_b)
-    low_a, low_b = row_of(scene, z, first_a), row_of(scene, z, first_b)
+    top_a, top_b = row_of(scene, z, far[0]), row_of(scene, z, far[1])
+    low_a, low_b = row_of(scene, z, near[0]), row_of(scene, z, near[1])
     return paint_shadows(scene, placed, bands, albedo, facing, top_a, top_b, low_a, low_b)
 
 
@@ -71,11 +69,12 @@ def upright_shadow(
     albedo: Floats,
     facing: Floats,
     casts: int,
-    at: tuple[float, float, float, float],
+    slab: tuple[float, float],
+    depths: tuple[float, float],
     rows: tuple[float, float, float, float],
 ) -> float:
-    """Shadows on an upright face: its depths and slopes k at the slab's sides, its upper and lower rows."""
-    depth_a, depth_b, ka, kb = at
+    """Shadows on an upright face: slopes k and depths at the slab's sides, its upper and lower rows."""
+    (ka, kb), (depth_a, depth_b) = slab, depths
     depth, km = 0.5 * (depth_a + depth_b), 0.5 * (ka + kb)
     clear_shadows(placed)
     for lamp in range(scene.lamp_count):

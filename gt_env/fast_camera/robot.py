@@ -11,9 +11,9 @@ import math
 from gt_env.fast_camera.bands import Bands
 from gt_env.fast_camera.compiling import compiled
 from gt_env.fast_camera.crossing import NOTHING, cut_box, cut_disc, see_wheel
+from gt_env.fast_camera.layout import BODY, MARKERS, Tables
 from gt_env.fast_camera.placed import Placed
 from gt_env.fast_camera.shadow import BY_BODY
-from gt_env.fast_camera.tables import BODY, MARKERS, Tables
 from gt_env.fast_camera.upright import paint_box, prism, tube
 from gt_env.fast_camera.wheels import paint_casters, paint_wheel
 

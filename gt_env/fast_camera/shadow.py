@@ -11,9 +11,9 @@ import math
 from gt_env.fast_camera.bands import Bands, paint
 from gt_env.fast_camera.compiling import compiled
 from gt_env.fast_camera.crossing import NOTHING, cut_box, cut_disc
+from gt_env.fast_camera.layout import BODY, Tables
 from gt_env.fast_camera.placed import MOST_SHADOWS, Placed
 from gt_env.fast_camera.solids import Floats
-from gt_env.fast_camera.tables import BODY, Tables
 
 BY_TARGET, BY_BODY = 1, 2
 """Who casts shadows; a sum of these is both."""

@@ -5,11 +5,11 @@ from __future__ import annotations
 from gt_env.fast_camera.bands import Bands, paint
 from gt_env.fast_camera.compiling import compiled
 from gt_env.fast_camera.crossing import cut_box, cut_disc, row_of
+from gt_env.fast_camera.layout import BODY, MARKERS, Tables
 from gt_env.fast_camera.placed import Placed
 from gt_env.fast_camera.receivers import level_shadow, upright_shadow
 from gt_env.fast_camera.shadow import BY_BODY, BY_TARGET, shade
 from gt_env.fast_camera.solids import Floats
-from gt_env.fast_camera.tables import BODY, MARKERS, Tables
 
 
 @compiled
@@ -41,44 +41,18 @@ def prism(
     top_a, top_b = row_of(scene, high, first_a), row_of(scene, high, first_b)
     low_a, low_b = row_of(scene, low, first_a), row_of(scene, low, first_b)
     cut = paint_face(bands, top_a, top_b, low_a, low_b, placed.lit[q, side])
+    color, slab, near, far = scene.colors[q], (ka, kb), (first_a, first_b), (last_a, last_b)
     casts = 0
     if scene.shadow and not MARKERS <= q < MARKERS + scene.markers:
         casts = BY_TARGET if q == BODY else BY_TARGET + BY_BODY
-        cut = min(
-            cut,
-            upright_shadow(
-                scene,
-                placed,
-                bands,
-                scene.colors[q],
-                placed.facing[q, side],
-                casts,
-                (first_a, first_b, ka, kb),
-                (top_a, top_b, low_a, low_b),
-            ),
-        )
+        facing, rows = placed.facing[q, side], (top_a, top_b, low_a, low_b)
+        cut = min(cut, upright_shadow(scene, placed, bands, color, facing, casts, slab, near, rows))
     if eye > high:
         back_a, back_b = row_of(scene, high, last_a), row_of(scene, high, last_b)
         cut = min(cut, paint_face(bands, back_a, back_b, top_a, top_b, placed.lit[q, 4]))
         if casts:
-            cut = min(
-                cut,
-                level_shadow(
-                    scene,
-                    placed,
-                    bands,
-                    scene.colors[q],
-                    placed.facing[q, 4],
-                    casts,
-                    high,
-                    ka,
-                    kb,
-                    first_a,
-                    first_b,
-                    last_a,
-                    last_b,
-                ),
-            )
+            facing = placed.facing[q, 4]
+            cut = min(cut, level_shadow(scene, placed, bands, color, facing, casts, high, slab, near, far))
     if eye < low:
         back_a, back_b = row_of(scene, low, last_a), row_of(scene, low, last_b)
         cut = min(cut, paint_face(bands, low_a, low_b, back_a, back_b, placed.lit[q, 5]))
@@ -120,22 +94,12 @@ def tube(
     normal_depth, normal_right = (first - at[0]) / radius, (km * first - at[1]) / radius
     rgb = shade(scene, placed.lamp, albedo, normal_depth, normal_right, 0.0)
     cut = paint(bands, top_a, top_b, low_a, low_b, rgb)
+    slab, near, far = (ka, kb), (first_a, first_b), (last_a, last_b)
     if scene.shadow and casts:
         for n in range(scene.lamp_count):
             placed.cosines[n] = max(normal_depth * placed.lamp[n, 0] + normal_right * placed.lamp[n, 1], 0.0)
-        cut = min(
-            cut,
-            upright_shadow(
-                scene,
-                placed,
-                bands,
-                albedo,
-                placed.cosines,
-                casts,
-                (first_a, first_b, ka, kb),
-                (top_a, top_b, low_a, low_b),
-            ),
-        )
+        facing, rows = placed.cosines, (top_a, top_b, low_a, low_b)
+        cut = min(cut, upright_shadow(scene, placed, bands, albedo, facing, casts, slab, near, rows))
     if scene.eye[2] > high:
         back_a, back_b = _bowed(scene, high, last_a, last, last_b)
         rgb = shade(scene, placed.lamp, albedo, 0.0, 0.0, 1.0)
@@ -143,24 +107,8 @@ def tube(
         if scene.shadow and casts & BY_TARGET:  # nothing stands above the target itself
             for n in range(scene.lamp_count):
                 placed.cosines[n] = max(placed.lamp[n, 2], 0.0)
-            cut = min(
-                cut,
-                level_shadow(
-                    scene,
-                    placed,
-                    bands,
-                    albedo,
-                    placed.cosines,
-                    casts,
-                    high,
-                    ka,
-                    kb,
-                    first_a,
-                    first_b,
-                    last_a,
-                    last_b,
-                ),
-            )
+            facing = placed.cosines
+            cut = min(cut, level_shadow(scene, placed, bands, albedo, facing, casts, high, slab, near, far))
     if scene.eye[2] < low:
         back_a, back_b = _bowed(scene, low, last_a, last, last_b)
         rgb = shade(scene, placed.lamp, albedo, 0.0, 0.0, -1.0)

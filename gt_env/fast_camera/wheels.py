@@ -7,10 +7,10 @@ import math
 from gt_env.fast_camera.bands import Bands, paint
 from gt_env.fast_camera.compiling import compiled
 from gt_env.fast_camera.crossing import see_ball, see_wheel, tread_normal
+from gt_env.fast_camera.layout import Tables
 from gt_env.fast_camera.placed import Placed
 from gt_env.fast_camera.receivers import point_shade, upright_shadow
 from gt_env.fast_camera.shadow import BY_BODY, BY_TARGET, shade
-from gt_env.fast_camera.tables import Tables
 from gt_env.fast_camera.upright import straighten
 
 
@@ -45,19 +45,9 @@ def paint_wheel(
             for n in range(scene.lamp_count):
                 cosine = face_x * placed.robot_lamp[n, 0] + face_y * placed.robot_lamp[n, 1]
                 placed.cosines[n] = max(cosine, 0.0)
-            cut = min(
-                cut,
-                upright_shadow(
-                    scene,
-                    placed,
-                    bands,
-                    scene.wheel_color,
-                    placed.cosines,
-                    BY_TARGET + BY_BODY,
-                    (at[5], bt[5], ka, kb),
-                    (face_a, face_b, under_a, under_b),
-                ),
-            )
+            color, facing, casts = scene.wheel_color, placed.cosines, BY_TARGET + BY_BODY
+            slab, near, rows = (ka, kb), (at[5], bt[5]), (face_a, face_b, under_a, under_b)
+            cut = min(cut, upright_shadow(scene, placed, bands, color, facing, casts, slab, near, rows))
         cut = min(cut, _tread(scene, placed, bands, i, km, top_a, top_b, face_a, face_b))
         cut = min(cut, _tread(scene, placed, bands, i, km, under_a, under_b, low_a, low_b))
     else:
@@ -89,30 +79,29 @@ def _tread(
         inner = _bend((piece + 0.5) / pieces)
         row = 0.5 * (top_a + top_b) + inner * rows
         slope = (scene.lens[2] - row) / scene.lens[0]
-        nx, nz, depth = tread_normal(scene, placed, i, k, slope)
-        cut = min(
-            cut,
-            paint(
-                bands,
-                top_a + above * (low_a - top_a),
-                top_b + above * (low_b - top_b),
-                top_a + below * (low_a - top_a),
-                top_b + below * (low_b - top_b),
-                point_shade(
-                    scene,
-                    placed,
-                    placed.robot_lamp,
-                    nx * scene.wheels[i, 4],
-                    nx * scene.wheels[i, 5],
-                    nz,
-                    depth,
-                    k * depth,
-                    scene.eye[2] + slope * depth,
-                ),
-            ),
-        )
+        out, nz, depth = tread_normal(scene, placed, i, k, slope)
+        nx, ny, z = out * scene.wheels[i, 4], out * scene.wheels[i, 5], scene.eye[2] + slope * depth
+        rgb = point_shade(scene, placed, placed.robot_lamp, nx, ny, nz, depth, k * depth, z)
+        cut = min(cut, _paint_part(bands, top_a, top_b, low_a, low_b, above, below, rgb))
         above = below
     return cut
+
+
+@compiled
+def _paint_part(
+    bands: Bands,
+    top_a: float,
+    top_b: float,
+    low_a: float,
+    low_b: float,
+    above: float,
+    below: float,
+    rgb: tuple[float, float, float],
+) -> float:
+    """Paint between two shares of the way from an upper to a lower border; as `paint`."""
+    upper = top_a + above * (low_a - top_a), top_b + above * (low_b - top_b)
+    lower = top_a + below * (low_a - top_a), top_b + below * (low_b - top_b)
+    return paint(bands, upper[0], upper[1], lower[0], lower[1], rgb)
 
 
 @compiled
@@ -158,17 +147,7 @@ def _caster(scene: Tables, placed: Placed, bands: Bands, i: int, ka: float, kb: 
         t = (b - math.sqrt(rest)) / a
         nx, ny, nz = (t - depth) / radius, (t * km - right) / radius, (t * slope - up) / radius
         rgb = point_shade(scene, placed, placed.lamp, nx, ny, nz, t, t * km, scene.eye[2] + t * slope)
-        cut = min(
-            cut,
-            paint(
-                bands,
-                top_a + above * (low_a - top_a),
-                top_b + above * (low_b - top_b),
-                top_a + below * (low_a - top_a),
-                top_b + below * (low_b - top_b),
-                rgb,
-            ),
-        )
+        cut = min(cut, _paint_part(bands, top_a, top_b, low_a, low_b, above, below, rgb))
         above = below
     return cut
 

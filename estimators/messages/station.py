@@ -1,58 +1,20 @@
-"""What sensors say and what estimators answer: one type per message, the same for simulated and real sensors.
-
-Every message names its `source` (`station/lrf`, `station/camera`, `robot/encoders`, ...) and carries the
-`stamp` [s] at which it was measured. Messages are immutable and their arrays read-only, so that several
-estimators can be handed the same one.
-"""
+"""What the station's sensors say: scans, frames, and what was seen in a frame."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Sequence
-from dataclasses import FrozenInstanceError, dataclass, field
+from collections.abc import Callable
+from dataclasses import FrozenInstanceError, dataclass
 from typing import Any, Final, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from estimators.errors import MeasurementError
-from estimators.poses import Array, Pose2
+from estimators.messages.message import Message, check_finite, freeze
+from estimators.poses import Array
 
 STATION_LRF: Final = "station/lrf"
 STATION_CAMERA: Final = "station/camera"
-ROBOT_ENCODERS: Final = "robot/encoders"
-ROBOT_IMU: Final = "robot/imu"
-ROBOT_LIDAR: Final = "robot/lidar"
-
-NO_COVARIANCE: Final = 1e6
-"""Variance that stands for "nothing known" before the first fix [m^2, rad^2]."""
-
-
-def _freeze(message: object, name: str, dtype: Any, ndim: int) -> None:
-    """Store the field as a read-only array, copied unless it already is one, checking its dimensions."""
-    array = np.asarray(getattr(message, name), dtype)
-    if array.ndim != ndim:
-        kind = type(message).__name__
-        raise MeasurementError(f"{kind}.{name} must have {ndim} dimension(s), got shape {array.shape}")
-    if array.flags.writeable:
-        array = array.copy()
-        array.setflags(write=False)
-    object.__setattr__(message, name, array)
-
-
-def _check_finite(message: object, *names: str) -> None:
-    for name in names:
-        value = getattr(message, name)
-        if not math.isfinite(value):
-            raise MeasurementError(f"{type(message).__name__}.{name} must be finite, got {value}")
-
-
-@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
-class Message:
-    """What all messages share: when it was measured [s] and by which sensor."""
-
-    stamp: float
-    source: str
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -83,8 +45,8 @@ class LaserScan(Message):
     range_max: float
 
     def __post_init__(self) -> None:
-        _check_finite(self, "stamp", "bearing_min", "bearing_increment", "time_increment")
-        _freeze(self, "ranges", np.float32, 1)
+        check_finite(self, "stamp", "bearing_min", "bearing_increment", "time_increment")
+        freeze(self, "ranges", np.float32, 1)
         if self.ranges.size == 0:
             raise MeasurementError("LaserScan.ranges must hold at least one beam")
         if not self.range_min < self.range_max:
@@ -130,7 +92,7 @@ class ImageFrame(Message):
         Message.__init__(self, stamp=stamp, source=source)
         object.__setattr__(self, "pan", pan)
         object.__setattr__(self, "_pixels", rgb)
-        _check_finite(self, "stamp", "pan")
+        check_finite(self, "stamp", "pan")
         if not callable(rgb):
             self._store(rgb)
 
@@ -192,81 +154,11 @@ class TargetSighting(Message):
     marker_colors: NDArray[np.int64]
 
     def __post_init__(self) -> None:
-        _check_finite(self, "stamp", "pan")
-        _freeze(self, "marker_columns", np.float64, 1)
-        _freeze(self, "marker_colors", np.int64, 1)
+        check_finite(self, "stamp", "pan")
+        freeze(self, "marker_columns", np.float64, 1)
+        freeze(self, "marker_colors", np.int64, 1)
         if self.marker_columns.shape != self.marker_colors.shape:
             raise MeasurementError(
                 f"TargetSighting needs one colour per marker, got {self.marker_columns.size} columns "
                 f"and {self.marker_colors.size} colours"
             )
-
-
-@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
-class WheelOdometry(Message):
-    """Wheel speeds (n,) [rad/s] as the encoders gave them, averaged since the message before."""
-
-    source: str = ROBOT_ENCODERS
-    speeds: Array
-
-    def __post_init__(self) -> None:
-        _check_finite(self, "stamp")
-        _freeze(self, "speeds", np.float64, 1)
-
-
-@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
-class ImuSample(Message):
-    """Rate of turn about z [rad/s] and acceleration (2,) along the robot's x and y [m/s^2]."""
-
-    source: str = ROBOT_IMU
-    yaw_rate: float
-    acceleration: Array = field(default_factory=lambda: np.zeros(2))
-
-    def __post_init__(self) -> None:
-        _check_finite(self, "stamp")
-        _freeze(self, "acceleration", np.float64, 1)
-
-
-@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
-class PoseEstimate:
-    """What an estimator says: the pose of the robot's base at `stamp`, and how sure it is.
-
-    Attributes:
-        stamp: Time that pose and covariance refer to [s].
-        pose: x, y [m], yaw [rad]; three numbers are accepted.
-        covariance: (3, 3), order x, y, yaw [m^2, m rad, rad^2].
-        valid: Whether the position may be used.
-        yaw_valid: Whether the yaw may be used.
-
-    Raises:
-        MeasurementError: If the pose is not finite, or the covariance not a finite symmetric (3, 3) matrix.
-    """
-
-    stamp: float
-    pose: Pose2
-    covariance: Array
-    valid: bool = True
-    yaw_valid: bool = True
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "pose", Pose2.of(self.pose))
-        _freeze(self, "covariance", np.float64, 2)
-        p = self.covariance
-        if p.shape != (3, 3) or not np.isfinite(p).all() or np.abs(p - p.T).max() > 1e-9 * np.abs(p).max():
-            raise MeasurementError(
-                f"PoseEstimate.covariance must be a finite symmetric (3, 3) matrix, got {p.tolist()}"
-            )
-
-    @classmethod
-    def unknown(cls) -> PoseEstimate:
-        """What there is to say before the first fix."""
-        return cls(
-            stamp=-1.0,
-            pose=Pose2(),
-            covariance=NO_COVARIANCE * np.eye(3),
-            valid=False,
-            yaw_valid=False,
-        )
-
-
-Messages = Sequence[Message]
