@@ -66,7 +66,19 @@ def _subject(s: SubjectSummary, score: Score | None) -> dict[str, Any]:
         "missing_runs": dict(s.why_not),
         "references": {r: None if of is None else _score(of) for r, of in s.by_reference.items()},
         "paths": {p: None if of is None else _score(of) for p, of in s.by_path.items()},
+        "each_run": {run: _run(of) for run, of in s.by_run.items()},
     }
+
+
+def _run(scores: Mapping[str, Corrected | None]) -> dict[str, Any]:
+    """Position and yaw of one run."""
+    against: dict[str, dict[str, float | None]] = {"estimate_vs_gt": {}, "estimate_vs_true": {}}
+    for quantity, c in scores.items():
+        unit, factor = unit_of(quantity)
+        values = (None, None) if c is None else (c.value, c.true)
+        for pair, value in zip(against, values, strict=True):
+            against[pair][f"{key_of(quantity)}_{unit}"] = None if value is None else factor * value
+    return against
 
 
 _NOTHING: dict[str, Any] = {

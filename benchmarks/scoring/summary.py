@@ -73,6 +73,7 @@ class SubjectSummary:
         update_time: Processor time of an update on this machine [s]; None if it did not run here.
         problems: One line for each kind of failure.
         why_not: Why runs are missing, by run.
+        by_run: Position and yaw of each run alone, against the chosen reference.
     """
 
     name: str
@@ -83,6 +84,7 @@ class SubjectSummary:
     update_time: float | None
     problems: tuple[str, ...]
     why_not: Mapping[str, str]
+    by_run: Mapping[str, Mapping[str, Corrected | None]]
 
 
 def summarise(runs: Sequence[JudgedRun], reference: str, seed: int = 0) -> list[SubjectSummary]:
@@ -117,6 +119,11 @@ def _subject(name: str, runs: Sequence[JudgedRun], reference: str, seed: int) ->
         update_time=seconds,
         problems=_problems(name, runs),
         why_not={run_name(r): j.why_not for r, j in zip(runs, chosen, strict=True) if j.errors is None},
+        by_run={
+            run_name(r): {q: corrected([j.errors.quantities[q]], DOUBT) for q in ("position", "yaw")}
+            for r, j in zip(runs, chosen, strict=True)
+            if j.errors is not None
+        },
     )
 
 

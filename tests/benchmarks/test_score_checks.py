@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from benchmarks.scoring.checks import CHECKED, checked
+from benchmarks.scoring.checks import CHECKED, _agreement, _cases, checked
 from benchmarks.scoring.judge import Rules, judge
 from benchmarks.scoring.quantities import Corrected
 from benchmarks.scoring.reference_errors import reference_errors, together
@@ -76,6 +76,20 @@ def test_verdicts_far_from_a_bound_are_right_and_those_at_one_are_said_to_be_nea
 
     close = checked([judged(seed, 4 * 0.003) for seed in range(6)])["fused"]
     assert close.agreement.near > 0
+
+
+def test_a_verdict_is_held_against_the_station_s_uncertainty_and_not_its_error_in_one_run():
+    """Station errors of 1 and 7 mm are an uncertainty of 5 mm: an error of 21 mm is 4.2 times that in both runs."""
+    single = [
+        ("path", dict.fromkeys(CHECKED, Corrected(
+            n=10, raw=0.0216, value=0.021, interval=(0.0205, 0.0215), stated=0.005, true=0.021, gt_true=g,
+        )))
+        for g in (0.001, 0.007)
+    ]  # fmt: skip
+    found = _agreement(_cases(single))
+    assert found.cases == 6
+    assert found.true_error == found.truth == 1.0
+    assert found.truth_of_run == 0.5  # by the second run alone it would be 3 : 1
 
 
 def test_intervals_are_counted_as_wrong_where_the_station_is_far_worse_than_it_states():
