@@ -77,9 +77,9 @@ QUICK = Effort(
     placements=5,
     single_scans=100,
     joint_scans=2,
-    at_rest=3,
+    at_rest=2,
     at_rest_dithered=2,
-    driving=4,
+    driving=3,
     longest_drive=8.0,
     stress=1,
 )
