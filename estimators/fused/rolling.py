@@ -66,7 +66,8 @@ class Unicycle:
         out[:, 1] += dt * vy
         out[:, 2] += dt * omega
         out[:, slides] *= kept
-        F = np.tile(np.eye(self.size), (len(states), 1, 1))
+        F = np.zeros((len(states), self.size, self.size))
+        F.reshape(len(states), -1)[:, :: self.size + 1] = 1.0
         F[:, 0, 2], F[:, 1, 2] = -dt * vy, dt * vx
         F[:, 0, 3], F[:, 1, 3] = dt * (c - by_v * s), dt * (s + by_v * c)
         F[:, 0, 4], F[:, 1, 4] = -dt * (0.5 * dt * vy + by_omega * s), dt * (0.5 * dt * vx + by_omega * c)

@@ -46,24 +46,28 @@ def feasible_poses(problem: Problem, outline: TargetOutline, start: Solution) ->
     at = np.concatenate([edges.limbs, edges.markers[problem.markers][used]])
     middles = np.concatenate([problem.limbs, (problem.ends + np.array([-0.5, 0.5]))[used]])
     factor = np.linalg.cholesky(spread) * SPREAD
-    shifts = _DRAWS @ factor.T
-    off = np.abs(shifts @ slopes.T + (at - middles)) - 0.5
+    off = _DRAWS @ (slopes @ factor).T
+    off += at - middles
+    np.abs(off, out=off)
+    off -= 0.5
     feet = FOOT_SHAPE * edges.foot[problem.markers][used]
     softness = np.hypot(SOFTNESS, np.concatenate([np.zeros(2), feet]))
     softness[:2] = math.hypot(SOFTNESS, problem.shape_error)
-    outside = np.maximum(off, 0.0) / softness
+    outside = np.maximum(off, 0.0, out=off)
+    outside /= softness
     # The prior of the distance is in the draws' own density already, but wider.
-    drift = (start.pose[2] + shifts[:, 2] - problem.distance) / problem.distance_sigma
-    log_weight = _LOG_DRAWS - 0.5 * np.einsum("ij,ij->i", outside, outside) - 0.5 * drift * drift
+    drift = (_DRAWS @ factor[2] + (start.pose[2] - problem.distance)) / problem.distance_sigma
+    misfits = np.einsum("ij,ij->i", outside, outside)
+    log_weight = _LOG_DRAWS - 0.5 * (misfits + drift * drift)
     weight = np.exp(log_weight - log_weight.max())
     weight /= weight.sum()
     if 1 / float(weight @ weight) < FEWEST:
         return start
-    mean = weight @ shifts
-    rest = shifts - mean
-    covariance = (rest * weight[:, None]).T @ rest + RESOLUTION**2 * spread
-    misfit = float(weight @ np.einsum("ij,ij->i", outside, outside)) / len(middles)
-    return Solution(start.pose + mean, np.linalg.inv(covariance), misfit)
+    mean = weight @ _DRAWS
+    scatter = (_DRAWS.T * weight) @ _DRAWS - np.outer(mean, mean)
+    covariance = factor @ scatter @ factor.T + RESOLUTION**2 * spread
+    misfit = float(weight @ misfits) / len(middles)
+    return Solution(start.pose + factor @ mean, np.linalg.inv(covariance), misfit)
 
 
 def outline_rows(problem: Problem, seen: np.ndarray) -> Array:
