@@ -119,10 +119,15 @@ def script(name: str, config: EnvConfig) -> list[Segment]:
     Raises:
         ConfigError: If the robot would come too near to a wall, or its wheels cannot turn as fast.
     """
-    drive, scale = DRIVES[name], room_scale(config)
-    segments = _segments([(forward * scale, turn) for forward, turn in drive.moves], config)
+    segments = segments_of(DRIVES[name], config)
     check_drive(name, start_pose(name, config), segments, config)
     return segments
+
+
+def segments_of(drive: Drive, config: EnvConfig) -> list[Segment]:
+    """Wheel speeds over time for a drive, shrunk to this room."""
+    scale = room_scale(config)
+    return _segments([(forward * scale, turn) for forward, turn in drive.moves], config)
 
 
 def check_drive(name: str, start: Pose2, segments: list[Segment], config: EnvConfig) -> None:
@@ -157,8 +162,13 @@ def check_room(name: str, poses: Array, config: EnvConfig) -> None:
 
 
 def start_pose(name: str, config: EnvConfig) -> Pose2:
+    """Where one of `DRIVES` starts in this room."""
+    return start_of(DRIVES[name], config)
+
+
+def start_of(drive: Drive, config: EnvConfig) -> Pose2:
     """Where a drive starts in this room."""
-    start = DRIVES[name].start
+    start = drive.start
     x, y = into_room((start.x, start.y), config)
     return Pose2(x=x, y=y, yaw=start.yaw)
 

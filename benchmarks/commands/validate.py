@@ -44,6 +44,7 @@ StressOption = Annotated[
     bool, typer.Option("--stress", help="Also swept scans, slipping wheels and high speed.")
 ]
 RoomsOption = Annotated[bool, typer.Option("--rooms", help="Also other rooms, targets and rangefinders.")]
+RobotsOption = Annotated[bool, typer.Option("--robots", help="Also other robots, all on the same ways.")]
 DEFAULT_METHODS = ("thesis", "fused", "smooth")
 
 
@@ -62,6 +63,7 @@ def validate(
     cameras: CamerasOption = False,
     stress: StressOption = False,
     rooms: RoomsOption = False,
+    robots: RobotsOption = False,
 ) -> None:
     """Repeat the thesis's validation beside its published numbers, and go beyond it: limits, honesty, other methods."""
     from benchmarks.cameras import plan_cameras, run_cameras
@@ -69,6 +71,7 @@ def validate(
     from benchmarks.report.setup import describe, validate_command
     from benchmarks.report.terminal import rich_table
     from benchmarks.report.write import Outcome, write_numbers, write_page
+    from benchmarks.robots import plan_robots, run_robots
     from benchmarks.rollout import watched_arena
     from benchmarks.rooms import plan_rooms, run_rooms
     from benchmarks.validation import plan_validation, run_validation
@@ -81,6 +84,7 @@ def validate(
     plan = plan_validation(settings, methods, seed=seed, quick=quick, stress=stress)
     camera_plan = plan_cameras(settings, methods, seed=seed, quick=quick) if cameras else None
     room_plan = plan_rooms(settings, methods, seed=seed, quick=quick) if rooms else None
+    robot_plan = plan_robots(settings, methods, seed=seed, quick=quick) if robots else None
     watched_arena(settings, methods).close()  # what is wrong with the set-up is said here, not by a worker
     console = Console(emoji=False)
     running: dict[str, Any] = {"jobs": jobs, "console": console, "engine": place}
@@ -89,12 +93,17 @@ def validate(
     compared = run_cameras(camera_plan, **running) if camera_plan is not None and whole else None
     whole = whole and (compared is None or compared.failed is None)
     elsewhere = run_rooms(room_plan, **running) if room_plan is not None and whole else None
+    whole = whole and (elsewhere is None or elsewhere.failed is None)
+    others = run_robots(robot_plan, **running) if robot_plan is not None and whole else None
     outcome = Outcome(
-        validation=validation, scores=score_validation(validation), cameras=compared, rooms=elsewhere
+        validation=validation,
+        scores=score_validation(validation),
+        cameras=compared,
+        rooms=elsewhere,
+        robots=others,
     )
-    command = validate_command(
-        config, overrides or [], seed, methods, quick=quick, cameras=cameras, stress=stress, rooms=rooms
-    )
+    parts = {"quick": quick, "cameras": cameras, "stress": stress, "rooms": rooms, "robots": robots}
+    command = validate_command(config, overrides or [], seed, methods, **parts)
     command += "" if calibration is None else f" --calibration {shlex.quote(str(calibration))}"
     setup = describe(plan, command)
     if outcome.failed is not None:

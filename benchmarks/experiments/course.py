@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from benchmarks.experiments.run import settling
 from benchmarks.following import Follower
+from benchmarks.following_freely import FreeFollower
 from benchmarks.rollout import Rollout, rollout, watched_arena
 from estimators.errors import GtEnvError
 from estimators.poses import Array, Pose2
@@ -27,12 +28,14 @@ class Course:
         methods: Who watches.
         poses: Where to be after each environment step, the first at the start (steps + 1, 3) [m, m, rad].
         seed: Of the episode.
+        freely: Whether the poses turn otherwise than they go, as an omnidirectional robot can.
     """
 
     config: EnvConfig
     methods: tuple[str, ...]
     poses: Array
     seed: int
+    freely: bool = False
 
     @property
     def steps(self) -> int:
@@ -47,10 +50,11 @@ def follow(course: Course, on_step: Callable[[], None] | None = None) -> Rollout
         ContactError: If the robot may have touched a wall: what it did then is not what the course is about.
     """
     env = watched_arena(course.config, course.methods)
+    follower = FreeFollower if course.freely else Follower
     try:
         found = rollout(
             env,
-            Follower(course.poses, course.config),
+            follower(course.poses, course.config),
             seed=course.seed,
             pose=Pose2.of(course.poses[0]),
             settle=settling(course.config),

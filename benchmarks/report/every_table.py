@@ -6,11 +6,13 @@ from benchmarks.cameras import CameraScores
 from benchmarks.report.cameras import camera_tables
 from benchmarks.report.consistency import consistency_tables
 from benchmarks.report.goal import Goal, goal_table
+from benchmarks.report.robots import robot_table
 from benchmarks.report.rooms import room_tables
 from benchmarks.report.scores import Scores
 from benchmarks.report.stress import stress_table
 from benchmarks.report.summary_table import blind_table, drive_table, limit_table, summary_table
 from benchmarks.report.tables import Table, all_tables
+from benchmarks.robots import RobotScores
 from benchmarks.rooms import RoomScores
 
 
@@ -18,6 +20,7 @@ def every_table(
     scores: Scores,
     rooms: RoomScores | None = None,
     cameras: CameraScores | None = None,
+    robots: RobotScores | None = None,
     goals: list[Goal] | None = None,
 ) -> list[Table]:
     """Those of chapter 5, then what else was done, last the summary and how it compares with the targets."""
@@ -31,6 +34,8 @@ def every_table(
         tables.append(stress_table(scores))
     if rooms is not None:
         tables += room_tables(rooms)
+    if robots is not None:
+        tables.append(robot_table(robots))
     if cameras is not None:
         tables += camera_tables(cameras)
     tables.append(summary_table(scores))

@@ -24,6 +24,7 @@ SECTIONS = {
     "consistency": "Does the station know how wrong it is?",
     "stress": "Harder drives",
     "rooms": "Other rooms, targets and rangefinders",
+    "robots": "Other robots",
     "cameras": "What the camera brings",
 }
 

@@ -48,6 +48,7 @@ def validate_command(
     cameras: bool = False,
     stress: bool = False,
     rooms: bool = False,
+    robots: bool = False,
 ) -> str:
     """The command line that makes the same report again."""
     words = ["gt-env", "validate", "--config", config]
@@ -57,5 +58,5 @@ def validate_command(
     for method in methods:
         words += ["--method", method]
     words += ["--quick"] * quick + ["--cameras"] * cameras + ["--stress"] * stress
-    words += ["--rooms"] * rooms
+    words += ["--rooms"] * rooms + ["--robots"] * robots
     return shlex.join(words)

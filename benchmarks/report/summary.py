@@ -27,13 +27,14 @@ def report_json(
     setup: dict[str, Any],
     cameras: dict[str, Any] | None = None,
     rooms: dict[str, Any] | None = None,
+    robots: dict[str, Any] | None = None,
     goals: Sequence[Goal] = (),
 ) -> str:
     """Strict JSON: `setup`, `static` by method and point, `moving` by drive and method, and what else there is.
 
     `limits` by test point; `rest` by what the camera did, `travels` (all drives that go somewhere together) and
     `stress` by method, `stress_consistency` as `consistency`; `without_camera` as `moving`; `consistency`,
-    `whiteness`, `cameras`, `rooms`; `goals`, the documented targets and whether they are met.
+    `whiteness`, `cameras`, `rooms`, `robots`; `goals`, the documented targets and whether they are met.
 
     `mean`, `std`, `mode` are x, y, yaw in [m, m, deg]; `mae` in [mm, mm, deg]; `valid` is a share of the
     samples; `nees` is null where a method states no covariance, any number where nothing valid was said.
@@ -57,6 +58,7 @@ def report_json(
         "whiteness": whiteness_json(scores),
         "cameras": cameras,
         "rooms": rooms,
+        "robots": robots,
         "goals": goals_json(goals),
     }
     report |= {key: value for key, value in further.items() if value}

@@ -14,10 +14,12 @@ from benchmarks.report.cameras import cameras_json
 from benchmarks.report.every_table import every_table
 from benchmarks.report.goal import Goal
 from benchmarks.report.goals import reached_goals
+from benchmarks.report.robots import robot_goals, robots_json
 from benchmarks.report.rooms import rooms_json
 from benchmarks.report.scores import Scores
 from benchmarks.report.summary import report_json
 from benchmarks.report.tables import Table
+from benchmarks.robots import RobotScores
 from benchmarks.rooms import RoomScores
 from benchmarks.validation import Validation
 
@@ -31,35 +33,39 @@ class Outcome:
         scores: Of it.
         rooms: Of other rooms, targets and rangefinders, if these were asked for.
         cameras: Likewise of cameras.
+        robots: Likewise of several robots.
     """
 
     validation: Validation
     scores: Scores
     rooms: RoomScores | None = None
     cameras: CameraScores | None = None
+    robots: RobotScores | None = None
 
     @property
     def failed(self) -> SweepError | None:
         """The first part of which runs failed."""
-        parts = (self.validation, self.cameras, self.rooms)
+        parts = (self.validation, self.cameras, self.rooms, self.robots)
         return next((part.failed for part in parts if part is not None and part.failed), None)
 
     def goals(self) -> list[Goal]:
         """The documented targets beside what was reached."""
-        return reached_goals(self.validation.plan.config, self.scores, self.rooms)
+        goals = reached_goals(self.validation.plan.config, self.scores, self.rooms)
+        return goals + ([*robot_goals(self.robots)] if self.robots is not None else [])
 
     def tables(self) -> list[Table]:
         """In the order of the page."""
-        return every_table(self.scores, self.rooms, self.cameras, self.goals())
+        return every_table(self.scores, self.rooms, self.cameras, self.robots, self.goals())
 
 
 def write_numbers(folder: Path, outcome: Outcome, setup: dict[str, Any]) -> str:
     """Write `report.json`; returns its name."""
     compared = None if outcome.cameras is None else cameras_json(outcome.cameras)
     elsewhere = None if outcome.rooms is None else rooms_json(outcome.rooms)
+    others = None if outcome.robots is None else robots_json(outcome.robots)
     # Where runs failed there is not enough to hold against targets.
     goals = outcome.goals() if outcome.failed is None else []
-    text = report_json(outcome.scores, setup, compared, elsewhere, goals)
+    text = report_json(outcome.scores, setup, compared, elsewhere, others, goals)
     (folder / "report.json").write_text(text, encoding="utf-8")
     return "report.json"
 
@@ -70,7 +76,7 @@ def write_page(folder: Path, outcome: Outcome, setup: dict[str, Any], console: C
     from benchmarks.experiments.scenes import scenes
     from benchmarks.figures.style import paper, save_png
     from benchmarks.report.gallery.cameras import camera_plates
-    from benchmarks.report.gallery.compared import room_plates, stress_plates
+    from benchmarks.report.gallery.compared import robot_plates, room_plates, stress_plates
     from benchmarks.report.gallery.further import further_plates
     from benchmarks.report.gallery.thesis import thesis_plates
     from benchmarks.report.page import html_page
@@ -84,6 +90,8 @@ def write_page(folder: Path, outcome: Outcome, setup: dict[str, Any], console: C
     ]
     if outcome.rooms is not None:
         shown += room_plates(outcome.rooms)
+    if outcome.robots is not None:
+        shown += robot_plates(outcome.robots)
     if outcome.cameras is not None:
         shown += camera_plates(outcome.cameras, camera_scenes(config, seed))
     with console.status("drawing") as status:

@@ -1,4 +1,4 @@
-"""The figures of harder drives and of other rooms, targets and rangefinders."""
+"""The figures of harder drives, of other rooms, targets and rangefinders, and of other robots."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from benchmarks.goals import ELSEWHERE
 from benchmarks.metrics import Score
 from benchmarks.report.gallery.plate import Plate
 from benchmarks.report.scores import DEGREES, MM, Scores, times
+from benchmarks.robots import RobotScores
 from benchmarks.rooms import RoomScores
 
 READ = (
@@ -57,6 +58,24 @@ def room_plates(rooms: RoomScores) -> Iterator[Plate]:
         f"{ELSEWHERE:g} times it. Others: robots that drive about at random. " + READ,
         draw=partial(compared_figure, names, panels, {ONE_SCAN: PUBLISHED, **_colors(tuple(of[0].driving))}),
     )
+
+
+def robot_plates(robots: RobotScores) -> Iterator[Plate]:
+    """One figure."""
+    names, of = list(robots.robots), list(robots.robots.values())
+    if of:
+        yield Plate(
+            name="robots",
+            section="robots",
+            repeats="",
+            caption="Several robots on the same ways. " + READ,
+            draw=partial(
+                compared_figure,
+                names,
+                _panels([s.driving for s in of], [s.honesty for s in of]),
+                _colors(tuple(of[0].driving)),
+            ),
+        )
 
 
 def _colors(methods: Sequence[str]) -> dict[str, str]:
