@@ -29,6 +29,7 @@ JUMP = 0.3
 """A line is broken where answers are farther apart [s]."""
 WINDOW = 1.0
 """Over which errors in time are averaged, as roots of mean squares [s]: single ones would fill the panel."""
+LEGEND_COLUMNS = 5
 MARGIN = 0.4
 """Of the map around the walls [m]; whoever thinks to be farther out is not drawn there."""
 
@@ -60,8 +61,10 @@ def map_figure(
     """One map for each run."""
     columns = min(len(runs), 2)
     rows = -(-len(runs) // columns)
-    width, height = room.bounds[2] - room.bounds[0], room.bounds[3] - room.bounds[1]
-    figure, axes = new_figure(WIDTH, rows * (WIDTH / columns * height / width + 0.55) + 0.4, rows, columns)
+    width, height = (room.bounds[i + 2] - room.bounds[i] + 2 * MARGIN for i in range(2))
+    entries = -(-(2 + len(runs[0].answers)) // LEGEND_COLUMNS)  # lines of the legend
+    tall = rows * (WIDTH / columns * height / width + 0.6) + 0.3 + 0.2 * entries
+    figure, axes = new_figure(WIDTH, tall, rows, columns)
     for ax, run, pairs in zip(axes, runs, of_run, strict=False):
         draw_map(ax, run, pairs, room, reference)
         ax.set_title(run.name)
@@ -69,12 +72,9 @@ def map_figure(
         ax.remove()
     handles, labels = axes[0].get_legend_handles_labels()
     figure.legend(
-        handles,
-        labels,
-        loc="outside lower center",
-        ncols=min(len(labels), 5),
+        handles, labels, loc="outside lower center", ncols=min(len(labels), LEGEND_COLUMNS),
         title=f"estimates {TITLES[align]}",
-    )
+    )  # fmt: skip
     return figure
 
 
