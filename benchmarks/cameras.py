@@ -22,7 +22,7 @@ from gt_env.config import EnvConfig
 FAR = 10 * DEG
 """Beyond this a heading is not inaccurate but wrong."""
 CHILD = 2
-"""Which child of the seed; the validation itself takes 0 and 1."""
+"""Which child of the seed; the validation draws single seeds from it, here a generator does."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
