@@ -115,6 +115,15 @@ def solve(evidence: Evidence, values: Array, believed: Array) -> Solution:
     return Solution(values, system.honest_covariance(), knots, track, system.residuals())
 
 
+def bound(evidence: Evidence, solution: Solution, believed: Array) -> Array:
+    """Covariance (10, 10) that no unbiased estimate from this evidence undercuts, its noise being as it is believed.
+
+    The inverse of the Fisher information of all measurements together, the track unknown (Cramer and Rao).
+    """
+    rows = _rows(evidence, solution.values, solution.knots, solution.track)
+    return _System(rows, evidence, solution.values, believed).covariance
+
+
 def _rows(evidence: Evidence, values: Array, knots: Knots, track: Array) -> dict[str, Rows]:
     rows = {
         "places": place_rows(evidence.places, values, knots, track),
