@@ -18,12 +18,18 @@ from estimators.calibration_file import CalibrationFile
 from estimators.messages import LaserScan
 from estimators.poses import Array
 from estimators.self_calibration.quantities import NAMES, QUANTITIES, Quantity, values_of
-from estimators.self_calibration.residuals import column_residuals, wall_residuals
+from estimators.self_calibration.residuals import column_residuals, corner_residuals, wall_residuals
 from estimators.self_calibration.run import SelfCalibration, self_calibrate
 from gt_env.config import EnvConfig
 
 SHOWN: Final[dict[str, tuple[str, float]]] = {"m": ("mm", 1e3), "rad": ("deg", 1 / DEG), "s": ("ms", 1e3)}
 """Unit and factor in which a quantity is shown."""
+WORST_FIT: Final = 1.3
+"""Root mean square residual of the walls, in standard deviations, above which they are not as they are believed."""
+MISFIT: Final = (
+    "The walls fit {times:.1f} times worse than the noise of the ranges allows: the room, or the beams' bearings, are "
+    "not as the configuration says, and standard errors may be too small."
+)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -55,7 +61,7 @@ class CalibrationRun:
 
     @property
     def residuals(self) -> dict[str, tuple[Array, Array]]:
-        """Of the walls (B,) [m] and, if there are frames, of the columns (K,) [px]: as believed, as found."""
+        """As believed and as found: of the walls (B,) [m], of the target's columns (K,) and the corners' (N,) [px]."""
         evidence, solution = self.found.evidence, self.found.solution
         before, after = self.found.believed, self.found.values
         shown = {"walls": (wall_residuals(evidence, before), wall_residuals(evidence, after))}
@@ -64,7 +70,14 @@ class CalibrationRun:
                 column_residuals(evidence, solution, before),
                 column_residuals(evidence, solution, after),
             )
+        if len(evidence.corners):
+            shown["corners"] = corner_residuals(evidence, before), corner_residuals(evidence, after)
         return shown
+
+    @property
+    def walls_fit(self) -> float:
+        """Root mean square residual of the walls over what noise leaves of it; near 1 if the room is as believed."""
+        return self.found.solution.residuals["walls"]
 
 
 def calibrate(recording: Recording, believed: EnvConfig) -> CalibrationRun:
@@ -114,7 +127,11 @@ def quantity_table(run: CalibrationRun) -> Table:
 
 def residual_table(run: CalibrationRun) -> Table:
     """Root mean square residuals as believed and as found."""
-    units = {"walls": ("walls, mean of each beam", "mm", 1e3), "columns": ("target in the image", "px", 1.0)}
+    units = {
+        "walls": ("walls, mean of each beam", "mm", 1e3),
+        "columns": ("target in the image", "px", 1.0),
+        "corners": ("room's corners in the image", "px", 1.0),
+    }
     rows = []
     for kind, residuals in run.residuals.items():
         what, unit, factor = units[kind]
@@ -124,6 +141,7 @@ def residual_table(run: CalibrationRun) -> Table:
         title="Root mean square residuals",
         head=("what", "unit", "as believed", "as found"),
         rows=tuple(rows),
+        note=MISFIT.format(times=run.walls_fit) if run.walls_fit > WORST_FIT else "",
     )
 
 
@@ -154,6 +172,7 @@ def report(run: CalibrationRun, command: str) -> dict[str, Any]:
             "range_noise": evidence.walls.noise,
             "scans_with_target": len(evidence.places),
             "frames_with_target": len(evidence.sightings),
+            "views_of_corners": len(evidence.corners),
         },
         "quantities": quantities,
         "residual_rms": {

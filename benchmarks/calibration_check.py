@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Annotated, Any, Final
 
 import gymnasium as gym
@@ -22,7 +23,7 @@ from benchmarks.experiments.moving import EIGHT_PATH
 from benchmarks.experiments.static import static_points
 from benchmarks.paths import path_script, path_start
 from benchmarks.progress import tracked
-from benchmarks.recording import MessageLog, Recording
+from benchmarks.recording import MessageLog, Recording, RecordingWriter
 from benchmarks.replay import replay
 from benchmarks.rollout import ARENA
 from estimators.calibration import Calibration
@@ -30,7 +31,7 @@ from estimators.calibration_file import CalibrationFile
 from estimators.messages import ImageFrame, LaserScan
 from estimators.poses import Array, Pose2
 from estimators.self_calibration.corner_rows import CornerSightings
-from estimators.self_calibration.joint import Evidence, bound
+from estimators.self_calibration.joint import bound
 from estimators.self_calibration.quantities import QUANTITIES, values_of
 from estimators.self_calibration.run import SelfCalibration, self_calibrate
 from gt_env.config import EnvConfig, load_config
@@ -107,22 +108,24 @@ def driven(config: EnvConfig, drive: str, duration: float, seed: int) -> Recordi
     return _recorded(config, Pose2(x=x, y=y, yaw=yaw), commands, seed)
 
 
-def check(config: EnvConfig, drive: str, duration: float, seed: int) -> Check:
-    """Record and calibrate a station that `planted` has spoilt."""
+def save(recording: Recording, path: Path, config: EnvConfig) -> None:
+    """Write a recording down, for `gt-env calibrate`."""
+    with RecordingWriter(path, config) as writer:
+        for stamp, *pose in recording.truth.tolist():
+            writer.write_truth(stamp, pose)
+        for message in recording.messages:
+            writer.write(message)
+
+
+def check(config: EnvConfig, recording: Recording) -> Check:
+    """Calibrate a station that `planted` has spoilt."""
     believed, start = config.believed().calibration(), values_of(config.believed().calibration())
-    messages = driven(config, drive, duration, seed).messages.stored
+    messages = recording.messages.stored
     scans = [m for m in messages if isinstance(m, LaserScan) and m.source.startswith("station/")]
     frames = [m for m in messages if isinstance(m, ImageFrame)]
     found = self_calibrate(scans, frames, believed)
     evidence = found.evidence
-    plain = Evidence(
-        evidence.walls,
-        evidence.places,
-        evidence.radius,
-        evidence.sightings,
-        evidence.image_height,
-        CornerSightings.none(),
-    )
+    plain = replace(evidence, corners=CornerSightings.none())
     least, without = (np.sqrt(np.diag(bound(e, found.solution, start))) for e in (evidence, plain))
     file = CalibrationFile.of(believed, found.values, found.standard_errors, found.observed, "")
     return Check(
@@ -193,11 +196,19 @@ def main(
     duration: Annotated[float, typer.Option(min=5.0, help="Of the recording [s].")] = 60.0,
     seed: Annotated[int, typer.Option(help="Of the first recording.")] = 0,
     count: Annotated[int, typer.Option(min=1, help="Recordings, one seed each.")] = 5,
+    record: Annotated[
+        Path | None, typer.Option(help="Keep the first recording in this file (.mcap).")
+    ] = None,
     accuracy: Annotated[bool, typer.Option(help="Compare other runs with the perfect calibration's.")] = True,
 ) -> None:
     """Print what calibrations of a spoilt station are worth."""
     spoilt = planted(load_config(config))
-    checks = [check(spoilt, drive, duration, s) for s in tracked(range(seed, seed + count), "Calibrations")]
+    checks = []
+    for one in tracked(range(seed, seed + count), "Calibrations"):
+        recording = driven(spoilt, drive, duration, one)
+        if one == seed and record is not None:
+            save(recording, record, spoilt)
+        checks.append(check(spoilt, recording))
     typer.echo(
         f"{'quantity':32s}{'unit':>5s}{'std error':>12s}{'rms error':>12s}{'bound':>10s}{'no corners':>12s}"
     )

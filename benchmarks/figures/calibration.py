@@ -17,12 +17,15 @@ GROUPS = {"m": "lengths", "rad": "angles", "s": "time"}
 
 
 def residual_figure(run: CalibrationRun) -> Figure:
-    """Residuals of the walls by beam and, if there are frames, of the target's column over time."""
+    """Residuals of the walls by beam and, if there are frames, of the target and the room's corners over time."""
     residuals = run.residuals
     figure, axes = new_figure(WIDTH, 2.1 * len(residuals), rows=len(residuals))
     draw_walls(axes[0], run.found.evidence.walls.bearings, *residuals["walls"])
     if "columns" in residuals:
         draw_columns(axes[1], run.found.evidence.sightings.stamps, *residuals["columns"])
+    if "corners" in residuals:
+        draw_columns(axes[-1], run.found.evidence.corners.stamps, *residuals["corners"])
+        axes[-1].set_title("The room's corners in the image")
     return figure
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from estimators.poses import Array
+from estimators.self_calibration.corner_rows import corner_derivatives
 from estimators.self_calibration.joint import Evidence, Solution
 from estimators.self_calibration.quantities import Q
 from estimators.self_calibration.rows import expected_columns
@@ -25,6 +26,14 @@ def column_residuals(evidence: Evidence, solution: Solution, values: Array) -> A
     found = _as_seen_with(evidence, solution.values, values, track)
     focal = 0.5 * evidence.image_height / np.tan(0.5 * values[Q.FOV])
     residuals: Array = seen.columns - expected_columns(found, seen.pans, values, focal)
+    return residuals
+
+
+def corner_residuals(evidence: Evidence, values: Array) -> Array:
+    """Columns of the room's corners less those (N,) [px] where quantities (10,) would have them."""
+    seen = evidence.corners
+    expected, _ = corner_derivatives(seen.points, seen.pans, values, evidence.image_height)
+    residuals: Array = seen.columns - expected
     return residuals
 
 

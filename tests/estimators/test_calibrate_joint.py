@@ -8,7 +8,7 @@ import pytest
 from estimators import RecordingError
 from estimators.messages import LaserScan
 from estimators.self_calibration.corner_rows import CornerSightings, corner_derivatives
-from estimators.self_calibration.joint import Evidence, solve
+from estimators.self_calibration.joint import Evidence, bound, solve
 from estimators.self_calibration.places import Places, RadiusEvidence
 from estimators.self_calibration.quantities import NAMES, PRIOR, Q, values_of, with_vector
 from estimators.self_calibration.rows import expected_columns
@@ -93,6 +93,10 @@ def test_corners_of_the_room_say_where_the_camera_looks_better_than_the_target_d
         errors = np.sqrt(np.diag(after.covariance))
         assert np.abs((after.values - true) / errors)[Q.PAN_OFFSET : Q.FOV + 1].max() < 4.0
         shares.append(errors / np.sqrt(np.diag(before.covariance)))
+        with_corners = replace(measured, corners=seen)
+        least, without = (np.diag(bound(e, after, believed)) for e in (with_corners, measured))
+        assert np.all(least <= without * (1 + 1e-9)), "more measurements never leave more open"
+        assert np.all(least <= np.diag(after.covariance) * (1 + 1e-6))
     assert np.mean(shares, axis=0)[[Q.PAN_OFFSET, Q.FOV]].max() < 0.5
     assert np.mean(shares, axis=0).max() < 1.1
 
