@@ -11,12 +11,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from benchmarks.steerable import steerable, turning_radius
 from estimators.calibration import DEG
 from estimators.errors import ConfigError
+from estimators.kinematics import Differential
 from estimators.poses import Array, Pose2
 from estimators.room import Room
 from gt_env.config import EnvConfig
 from gt_env.config.sections import RoomConfig
+from gt_env.robot import action_for
 
 SPEED = 0.45
 """Forward speed [m/s]: the author's 10 rad/s on wheels of 0.045 m."""
@@ -127,7 +130,8 @@ def script(name: str, config: EnvConfig) -> list[Segment]:
 def segments_of(drive: Drive, config: EnvConfig) -> list[Segment]:
     """Wheel speeds over time for a drive, shrunk to this room."""
     scale = room_scale(config)
-    return _segments([(forward * scale, turn) for forward, turn in drive.moves], config)
+    moves = [(forward * scale, turn) for forward, turn in drive.moves]
+    return _segments(steerable(moves, turning_radius(config.robot)), config)
 
 
 def check_drive(name: str, start: Pose2, segments: list[Segment], config: EnvConfig) -> None:
@@ -174,10 +178,16 @@ def start_of(drive: Drive, config: EnvConfig) -> Pose2:
 
 
 def actions(segments: list[Segment], config: EnvConfig, step: float) -> Array:
-    """The script as actions (steps, 2), one per environment step of `step` seconds."""
+    """The script as actions (steps, n), one per environment step of `step` seconds."""
     repeats = [round(duration / step) for duration, _, _ in segments]
     speeds = np.array([(left, right) for _, left, right in segments])
-    commands: Array = np.repeat(speeds, repeats, axis=0) / config.robot.max_wheel_speed
+    robot = config.robot
+    if robot.model != "differential":
+        # What a robot with two wheels does at these speeds.
+        twists = [Differential(radius=robot.wheel_radius, track=robot.track).twist(s) for s in speeds]
+        others: Array = np.repeat([action_for(robot, t) for t in twists], repeats, axis=0)
+        return others.clip(-1.0, 1.0)
+    commands: Array = np.repeat(speeds, repeats, axis=0) / robot.max_wheel_speed
     return commands
 
 

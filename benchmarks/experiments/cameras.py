@@ -10,7 +10,7 @@ import gymnasium as gym
 import numpy as np
 
 from benchmarks.driving import actions, script, start_pose
-from benchmarks.experiments.run import Run
+from benchmarks.experiments.run import Run, standing
 from benchmarks.experiments.scenes import Scene, scene_at
 from benchmarks.experiments.static import static_points
 from benchmarks.rollout import Rollout, rollout, watched_arena
@@ -147,7 +147,7 @@ def camera_runs(
         raise ConfigError("camera.enabled = false: must be true to compare cameras")
     points = static_points(config)
     rng = np.random.default_rng(seed)
-    still = np.zeros((effort.samples, 2))
+    still = standing(config, effort.samples)
     static = [
         Run(
             config=config,

@@ -6,10 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Final
 
-from benchmarks.driving import DRIVES, SPEED, actions, script, start_pose
+from benchmarks.driving import DRIVES, SPEED, Segment, actions, ideal_poses, script, start_pose
 from benchmarks.experiments.random_poses import dithered
 from benchmarks.experiments.run import Run
 from benchmarks.paths import ACCELERATION, path_in_room, path_script, path_start
+from estimators.poses import Pose2
 from gt_env.config import EnvConfig, load_config
 
 EIGHT: Final = "figure-of-eight"
@@ -73,21 +74,28 @@ def blind_runs(runs: Mapping[str, Run]) -> dict[str, Run]:
 
 def driven(name: str, config: EnvConfig, methods: tuple[str, ...], seed: int) -> Run:
     """One of the thesis's drives."""
-    commands = actions(script(name, config), config, step=config.timing.step)
-    return Run(config=config, methods=methods, pose=start_pose(name, config), actions=commands, seed=seed)
+    return _along(script(name, config), start_pose(name, config), config, methods, seed)
 
 
 def figure_of_eight(config: EnvConfig, methods: tuple[str, ...], seed: int) -> Run:
     """Once around, at the author's speed."""
     step = config.timing.step
-    lap = (
-        path_in_room(EIGHT_PATH, config).length / SPEED + SPEED / ACCELERATION
-    )  # coming up to speed and to rest
-    duration = step * round(lap / step)
-    commands = actions(path_script(EIGHT_PATH, config, duration=duration), config, step=step)
-    return Run(
-        config=config, methods=methods, pose=path_start(EIGHT_PATH, config), actions=commands, seed=seed
-    )
+    # Coming up to speed and to rest takes as long as a way at full speed.
+    lap = path_in_room(EIGHT_PATH, config).length / SPEED + SPEED / ACCELERATION
+    segments = path_script(EIGHT_PATH, config, duration=step * round(lap / step))
+    return _along(segments, path_start(EIGHT_PATH, config), config, methods, seed)
+
+
+def _along(
+    segments: list[Segment], start: Pose2, config: EnvConfig, methods: tuple[str, ...], seed: int
+) -> Run:
+    """By the clock alone, as the author did; other robots, which do not go just where their wheels say, are steered."""
+    step = config.timing.step
+    commands = actions(segments, config, step=step)
+    poses = None
+    if config.robot.model != "differential":
+        poses = ideal_poses(start, segments, config, step)
+    return Run(config=config, methods=methods, pose=start, actions=commands, seed=seed, poses=poses)
 
 
 def shortened(run: Run, longest: float) -> Run:

@@ -8,7 +8,8 @@ from typing import Final
 import numpy as np
 
 from benchmarks.driving import SPEED, TURN_RATE, Segment, actions, ideal_poses
-from benchmarks.experiments.run import Run
+from benchmarks.experiments.run import Run, standing
+from benchmarks.steerable import turning_radius
 from estimators.errors import ConfigError
 from estimators.poses import Pose2
 from estimators.room import Room
@@ -40,9 +41,9 @@ def rest_runs(
     found = []
     for of in seed.generate_state(runs).tolist():
         pose = _random_pose(room, config, rng)
-        run = Run(config=config, methods=methods, pose=pose, actions=np.zeros((0, 2)), seed=of)
+        run = Run(config=config, methods=methods, pose=pose, actions=standing(config, 0), seed=of)
         still = round(REST_SECONDS / config.timing.step) - run.settle
-        found.append(Run(config=config, methods=methods, pose=pose, actions=np.zeros((still, 2)), seed=of))
+        found.append(Run(config=config, methods=methods, pose=pose, actions=standing(config, still), seed=of))
     return tuple(found)
 
 
@@ -99,5 +100,8 @@ def _random_move(config: EnvConfig, rng: np.random.Generator) -> Segment:
     duration = step * max(round(float(rng.uniform(0.5, 2.0)) / step), 1)
     speed, rate = float(rng.uniform(0.3, 1.0)) * SPEED, float(rng.uniform(-1.0, 1.0)) * TURN_RATE
     speed, rate = ((speed, 0.0), (speed, 0.5 * rate), (0.0, rate), (0.0, 0.0))[int(rng.integers(4))]
+    if radius := turning_radius(robot):
+        speed = speed or (abs(rate) * radius if rate else 0.0)
+        rate = math.copysign(min(abs(rate), speed / radius), rate)
     left, right = (speed - 0.5 * robot.track * rate, speed + 0.5 * robot.track * rate)
     return duration, left / robot.wheel_radius, right / robot.wheel_radius

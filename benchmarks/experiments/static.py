@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from benchmarks.driving import into_room
-from benchmarks.experiments.run import Run
+from benchmarks.experiments.run import Run, standing
 from benchmarks.published import TEST_POINTS
 from estimators.errors import ConfigError
 from estimators.poses import Pose2
@@ -39,7 +39,7 @@ def static_runs(
     not that of one raster.
     """
     points = static_points(config)
-    still = np.zeros((samples // placements, 2))
+    still = standing(config, samples // placements)
     seeds = iter(seed.generate_state(len(points) * placements).tolist())
     return {
         name: tuple(
