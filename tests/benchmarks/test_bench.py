@@ -183,8 +183,9 @@ def test_the_command_writes_report_figure_and_page(tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
-def test_a_quick_run_measures_everything(tmp_path):
+def test_a_quick_run_measures_everything(tmp_path, monkeypatch):
     pytest.importorskip("pybullet")
+    monkeypatch.setattr(run, "QUICK", Effort(rounds=2, turn=0.002))
     out = tmp_path / "out"
     done = CliRunner().invoke(app, ["bench", "--quick", "--no-figures", "--out", str(out)])
     assert done.exit_code == 0, done.output

@@ -1,10 +1,12 @@
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from rich.console import Console
 
 from benchmarks import cameras as work
+from benchmarks import validation
 from benchmarks.cameras import camera_score, plan_cameras, run_cameras
 from benchmarks.commands import validate as command
 from benchmarks.experiments.cameras import CAMERAS, Effort, camera_runs, watch
@@ -159,7 +161,9 @@ def test_all_cameras_are_drawn_and_tabled(monkeypatch, tmp_path):
 @pytest.mark.slow
 def test_the_command_adds_the_comparison_to_the_report(monkeypatch, tmp_path):
     monkeypatch.setattr(work, "QUICK", BRIEF)
-    command.validate(quick=True, cameras=True, no_figures=True, out=tmp_path)
+    brief = replace(validation.QUICK, samples=10, placements=1, single_scans=20, longest_drive=2.0)
+    monkeypatch.setattr(validation, "QUICK", brief)
+    command.validate(quick=True, cameras=True, method=["thesis"], no_figures=True, out=tmp_path)
     report = json.loads((tmp_path / "report.json").read_text())
     assert {"setup", "static", "moving", "limits", "rest", "cameras"} <= set(report)
     assert list(report["cameras"]) == list(CAMERAS)
