@@ -19,10 +19,10 @@ SPACING: Final = 0.1
 """Time between their samples [s]."""
 
 
-DOUBT: Final = 2.0
+DOUBT: Final = (2.306 / 1.960) ** 2
 """By how much the variance of a reference's errors may exceed the stated one, as intervals allow for. A standard
-uncertainty that is known to 35 % has four degrees of freedom (GUM, JCGM 100:2008, G.4.2), and their Student's t widens
-a 95 % interval by 2.78 over 1.96, which is the root of two."""
+uncertainty that is itself known to a quarter has eight degrees of freedom (GUM, JCGM 100:2008, G.4.2), and Student's t
+with so many widens a 95 % interval by 2.306 over 1.960."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
