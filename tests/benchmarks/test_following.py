@@ -85,8 +85,8 @@ def test_what_room_or_robot_do_not_allow_is_refused(path: str, changes: dict, sa
     if path in PATHS:
         poses = timed_poses(path, config, speed=0.37)
     else:
-        segments = script(path, config)
-        poses = ideal_poses(start_pose(path, config), segments, config, period=config.timing.step)
+        plain = load_config("thesis")  # the drive of a robot that can turn on the spot
+        poses = ideal_poses(start_pose(path, plain), script(path, plain), plain, period=plain.timing.step)
     if says is None:
         check_followed(path, poses, config)
         assert Follower(poses, config).steps > 100
