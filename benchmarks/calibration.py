@@ -57,6 +57,7 @@ class CalibrationRun:
             self.found.standard_errors,
             self.found.observed,
             Path(self.recording.origin).name,
+            self.found.correlations,
         )
 
     @property

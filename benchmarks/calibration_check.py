@@ -127,7 +127,9 @@ def check(config: EnvConfig, recording: Recording) -> Check:
     evidence = found.evidence
     plain = replace(evidence, corners=CornerSightings.none())
     least, without = (np.sqrt(np.diag(bound(e, found.solution, start))) for e in (evidence, plain))
-    file = CalibrationFile.of(believed, found.values, found.standard_errors, found.observed, "")
+    file = CalibrationFile.of(
+        believed, found.values, found.standard_errors, found.observed, "", found.correlations
+    )
     return Check(
         true=values_of(config.calibration()),
         found=found,

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, Any, Final, Self
 
@@ -23,6 +23,7 @@ from estimators.calibration import Calibration
 from estimators.errors import ConfigError
 from estimators.poses import Array
 from estimators.self_calibration.quantities import NAMES, Q, with_values
+from estimators.self_calibration.uncertainty import SEPARATOR, covariance_of, problems
 
 FORMAT: Final = "gt-env calibration"
 VERSION: Final = 1
@@ -82,6 +83,7 @@ class _Content:
     camera: dict[str, _Real] = field(default_factory=dict)
     target: dict[str, _Real] = field(default_factory=dict)
     standard_errors: dict[str, _Real] = field(default_factory=dict)
+    correlations: dict[str, _Real] = field(default_factory=dict)
     not_observable: list[_Text] = field(default_factory=list)
 
 
@@ -92,6 +94,7 @@ class CalibrationFile:
     Attributes:
         values: By name, as in `NAMES`; those that the data said nothing of are missing.
         standard_errors: Of the same, in the same units.
+        correlations: Of their errors, by pairs of names with a space between; what is missing is 0.
         not_observable: Names of the others.
         station: For which station and target.
         recording: What they were estimated from.
@@ -104,6 +107,7 @@ class CalibrationFile:
     station: Station
     recording: str = ""
     origin: str = "the calibration"
+    correlations: Mapping[str, float] = field(default_factory=dict)
 
     @classmethod
     def of(
@@ -113,6 +117,7 @@ class CalibrationFile:
         standard_errors: Array,
         observed: NDArray[np.bool_],
         recording: str,
+        correlations: Mapping[str, float] | None = None,
     ) -> Self:
         """What an estimation found: values and errors (10,), and which of them (10,) the data say something of."""
         chosen = [i for i in range(len(Q)) if observed[i]]
@@ -122,6 +127,11 @@ class CalibrationFile:
             not_observable=tuple(NAMES[i] for i in range(len(Q)) if not observed[i]),
             station=Station.of(believed),
             recording=recording,
+            correlations={
+                pair: value
+                for pair, value in (correlations or {}).items()
+                if all(observed[NAMES.index(name)] for name in pair.split(SEPARATOR))
+            },
         )
 
     def over(self, believed: Calibration) -> Calibration:
@@ -132,7 +142,8 @@ class CalibrationFile:
         """
         for difference in self.station.differences(Station.of(believed)):
             raise ConfigError(f"{self.origin}: a calibration of another station: {difference}")
-        return with_values(believed, self.values)
+        uncertainty = covariance_of(self.standard_errors, self.correlations)
+        return replace(with_values(believed, self.values), uncertainty=uncertainty)
 
     def write(self, path: Path | str) -> None:
         """Write the file (TOML)."""
@@ -147,6 +158,7 @@ class CalibrationFile:
             "not_observable": list(self.not_observable),
             **{name: keys for name, keys in sections.items() if keys},
             "standard_errors": dict(self.standard_errors),
+            "correlations": dict(self.correlations),
             "station": asdict(self.station),
         }
         Path(path).write_text(tomli_w.dumps(content), encoding="utf-8")
@@ -190,6 +202,7 @@ def read_calibration(path: Path | str) -> CalibrationFile:
         station=read.station,
         recording=read.recording,
         origin=origin,
+        correlations=read.correlations,
     )
 
 
@@ -218,9 +231,7 @@ def _problems(values: Mapping[str, float], read: _Content) -> Iterator[str]:
             yield f"{name} = {value}: must be above 0 and below pi"
         if name in read.not_observable:
             yield f"{name} has a value and is in not_observable as well"
-    for name, value in read.standard_errors.items():
-        if not value > 0:
-            yield f"standard_errors.{name} = {value}: must be above 0"
+    yield from problems(read.standard_errors, read.correlations)
 
 
 def _short(value: Any) -> str:

@@ -11,6 +11,7 @@ import numpy as np
 
 from estimators.calibration import Calibration, Motion
 from estimators.clock import on_lrf_clock
+from estimators.fused.calibration_slopes import CalibrationSlopes
 from estimators.fused.frame_reading import MarkerReading
 from estimators.fused.holonomic import Point
 from estimators.fused.models import motion_model
@@ -81,6 +82,7 @@ class FusedEstimator:
         self._lrf = calibration.lrf.pose
         self._curve = calibration.lrf.noise_sigma**2 / calibration.target.radius
         self._camera = calibration.camera
+        self._slopes = CalibrationSlopes(calibration)
         self._model = motion_model(motion or calibration.motion, calibration)
         self.reset()
 
@@ -162,7 +164,7 @@ class FusedEstimator:
             self._begin(fix, None)
 
     def _begin(self, fix: PositionReading, seen: MarkerReading | None) -> None:
-        self._track = Track(Point() if seen is None else self._model, fix, seen, self._keep)
+        self._track = Track(Point() if seen is None else self._model, fix, seen, self._slopes, self._keep)
         self.tracks = [*(self.tracks if self._keep else ()), self._track]
         self._fix_stamp, self._lost = fix.stamp, None
         self._missed = self._refused = 0

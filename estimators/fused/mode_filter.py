@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Final
 
 import numpy as np
 
-from estimators.fused.motion import BIASES, CREEP, Mode, MotionModel
+from estimators.fused.motion import BIASES, CREEP, MotionModel, switching
 from estimators.poses import Array, wrap_angle
 
 YAW: Final = 2
@@ -25,6 +24,8 @@ LEAST_OPEN: Final = 1e-4
 """How open the way into rest always is, so that a mode at rest is never without a state that makes sense."""
 Measured = Callable[[Array], tuple[Array, Array]]
 """What states (M, n) would measure: (M, k), and its derivatives (M, k, n)."""
+Slopes = Callable[[Array, Array], Array]
+"""From states (M, n) and the derivatives of a measurement by them (M, k, n): those by the calibration (M, k, q)."""
 Plausible = Callable[[Array], Array]
 """Log-likelihoods (M,) of modes, from those that a Gaussian error would give them."""
 
@@ -59,10 +60,12 @@ class ModeFilter:
         x: States (M, n).
         P: Their covariances (M, n, n).
         weights: Probabilities of the modes (M,).
+        J: Derivatives (M, n, q) of the states by what is calibrated.
     """
 
-    def __init__(self, model: MotionModel) -> None:
+    def __init__(self, model: MotionModel, quantities: int = 0) -> None:
         self.model = model
+        self.J = np.zeros((len(model.modes), model.size, quantities))
         self._rest = np.flatnonzero([m.at_rest for m in model.modes])
         self._speeds = slice(YAW + 1, YAW + 1 + len(model.speed_sigmas))
         self._stops = np.diag(np.square([STOPPED[0]] * (len(model.speed_sigmas) - 1) + [STOPPED[1]]))
@@ -82,6 +85,7 @@ class ModeFilter:
         self.P = np.tile(P, (m, 1, 1))
         self._stop_resting()
         self.weights = np.full(m, 1 / m)
+        self.J = np.zeros_like(self.J)
 
     def predict(self, dt: float) -> None:
         """Let `dt` [s] pass, not negative."""
@@ -94,6 +98,8 @@ class ModeFilter:
             Q[self._rest] = 0.0
             Q[:, (0, 1, 2), (0, 1, 2)] += dt * CREEP
             self.x, self.P = x, F @ self.P @ F.transpose(0, 2, 1) + Q
+            if self.J.size:
+                self.J = F @ self.J
             self._stop_resting()
 
     def forget(self, biases: slice, kept: Array) -> None:
@@ -108,6 +114,8 @@ class ModeFilter:
         fade[:, n - BIASES :][:, biases] = kept
         self.x = self.x * fade
         self.P = self.P * (fade[:, :, None] * fade[:, None, :])
+        if self.J.size:
+            self.J = self.J * fade[:, :, None]
         every = np.arange(n)
         self.P[:, every, every] += 1 - fade**2
 
@@ -119,6 +127,7 @@ class ModeFilter:
         angles: Array,
         gate: float,
         plausible: Plausible = lambda log_likelihood: log_likelihood,
+        slopes: Slopes | None = None,
     ) -> Innovation:
         """Take a measurement.
 
@@ -129,6 +138,7 @@ class ModeFilter:
             angles: (k,) which of its values are angles.
             gate: Largest squared Mahalanobis length, in the most willing mode, that is let in.
             plausible: What becomes of the log-likelihoods that a Gaussian error would give the modes.
+            slopes: How the measurement follows what is calibrated; None if not at all.
         """
         expected, H = measured(self.x)
         residual = z - expected
@@ -142,10 +152,13 @@ class ModeFilter:
         if not accepted:
             return innovation
         K = PHt @ S_inverse
+        by_calibration = slopes(self.x, H) if slopes and self.J.size else None
         self.x = self.x + (K @ residual[:, :, None])[:, :, 0]
         # Joseph's form keeps the covariance symmetric and positive.
         A = self._eye - K @ H
         self.P = A @ self.P @ A.transpose(0, 2, 1) + K @ R @ K.transpose(0, 2, 1)
+        if by_calibration is not None:
+            self.J = A @ self.J + K @ by_calibration
         log_likelihood = plausible(-0.5 * (distance + np.log(np.linalg.det(S))))
         weights = self.weights * np.exp(log_likelihood - log_likelihood.max())
         weights = np.maximum(weights / weights.sum(), LEAST_WEIGHT)
@@ -161,6 +174,10 @@ class ModeFilter:
         x, P = _mixtures(self.weights[:, None], self.x, self.P)
         return x[0], P[0]
 
+    def combined_slopes(self) -> Array:
+        """Derivatives (n, q) of the state over all modes by what is calibrated."""
+        return np.tensordot(self.weights, self.J, 1)
+
     def _mix(self, dt: float) -> None:
         """Let modes switch: each starts from a mixture of all.
 
@@ -171,17 +188,22 @@ class ModeFilter:
         distance = (speeds * np.linalg.solve(P + self._stops, speeds[..., None])[..., 0]).sum(axis=1)
         closed = chances[:, self._rest] * (1.0 - np.maximum(np.exp(-0.5 * distance), LEAST_OPEN))[:, None]
         chances[:, self._rest] -= closed
-        _diagonal(chances)[:] += closed.sum(axis=1)
+        chances.reshape(-1)[:: len(chances) + 1] += closed.sum(axis=1)
         joint = chances * self.weights[:, None]
         weights = joint.sum(axis=0)
-        self.x, self.P = _mixtures(joint / weights, self.x, self.P)
+        shares = joint / weights
+        self.x, self.P = _mixtures(shares, self.x, self.P)
+        if self.J.size:
+            self.J = np.tensordot(shares, self.J, (0, 0))
         self.weights = weights
 
     def _stop_resting(self) -> None:
-        """In a mode at rest the velocities are zero, and known to be; both arrays are fresh."""
+        """In a mode at rest the velocities are zero, and known to be; all arrays are fresh."""
         self.x[self._rest, self._speeds] = 0.0
         self.P[self._rest, self._speeds, :] = 0.0
         self.P[self._rest, :, self._speeds] = 0.0
+        if self.J.size:
+            self.J[self._rest, self._speeds] = 0.0
 
     def _mixed_innovation(self, residual: Array, S: Array, accepted: bool) -> Innovation:
         mean, covariance = _mixtures(self.weights[:, None], residual, S)
@@ -192,37 +214,6 @@ def turning(model: MotionModel, x: Array, P: Array) -> Array:
     """Root mean square turn rate (M,) [rad/s] of states (M, n) with covariances (M, n, n)."""
     rate = YAW + len(model.speed_sigmas)
     return np.sqrt(x[:, rate] ** 2 + P[:, rate, rate])
-
-
-def switching(modes: tuple[Mode, ...], dt: float) -> Array:
-    """Probabilities (M, M) that a mode (row) has become another (column) after `dt` [s].
-
-    All others are equally likely, but between rest and steady driving there is always a change of speed: only the
-    modes of the greatest acceleration begin or end at rest.
-    """
-    ways, durations = _ways(modes)
-    chances: Array = ways * -np.expm1(-dt / durations)[:, None]
-    _diagonal(chances)[:] = 1.0 - chances.sum(axis=1)
-    return chances
-
-
-def _diagonal(square: Array) -> Array:
-    """View (n,) of the diagonal of a fresh array (n, n)."""
-    return square.reshape(-1)[:: len(square) + 1]
-
-
-@lru_cache
-def _ways(modes: tuple[Mode, ...]) -> tuple[Array, Array]:
-    """Where each mode (row) goes when it ends (M, M), and how long it lasts (M,) [s]."""
-    m = len(modes)
-    rest = np.array([mode.at_rest for mode in modes])
-    accelerations = np.array([mode.acceleration for mode in modes])
-    steady = ~rest & (accelerations < accelerations.max())
-    others = 1.0 - np.eye(m)
-    others[np.ix_(rest, steady)] = others[np.ix_(steady, rest)] = 0.0
-    return others / np.maximum(others.sum(axis=1, keepdims=True), 1.0), np.array(
-        [mode.duration for mode in modes]
-    )
 
 
 def _mixtures(weights: Array, x: Array, P: Array) -> tuple[Array, Array]:

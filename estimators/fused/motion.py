@@ -8,6 +8,7 @@ functions work on a stack of M states, one per mode.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final, Protocol
 
 import numpy as np
@@ -70,3 +71,29 @@ class MotionModel(Protocol):
 
     def velocities(self, states: Array) -> Array:
         """vx, vy (M, 2) [m/s] of the base in the room."""
+
+
+def switching(modes: tuple[Mode, ...], dt: float) -> Array:
+    """Probabilities (M, M) that a mode (row) has become another (column) after `dt` [s].
+
+    All others are equally likely, but between rest and steady driving there is always a change of speed: only the
+    modes of the greatest acceleration begin or end at rest.
+    """
+    ways, durations = _ways(modes)
+    chances: Array = ways * -np.expm1(-dt / durations)[:, None]
+    chances.reshape(-1)[:: len(chances) + 1] = 1.0 - chances.sum(axis=1)
+    return chances
+
+
+@lru_cache
+def _ways(modes: tuple[Mode, ...]) -> tuple[Array, Array]:
+    """Where each mode (row) goes when it ends (M, M), and how long it lasts (M,) [s]."""
+    m = len(modes)
+    rest = np.array([mode.at_rest for mode in modes])
+    accelerations = np.array([mode.acceleration for mode in modes])
+    steady = ~rest & (accelerations < accelerations.max())
+    others = 1.0 - np.eye(m)
+    others[np.ix_(rest, steady)] = others[np.ix_(steady, rest)] = 0.0
+    return others / np.maximum(others.sum(axis=1, keepdims=True), 1.0), np.array(
+        [mode.duration for mode in modes]
+    )

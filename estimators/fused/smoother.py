@@ -13,8 +13,8 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from estimators.fused.mode_filter import switching, turning
-from estimators.fused.motion import BIASES, CREEP
+from estimators.fused.mode_filter import turning
+from estimators.fused.motion import BIASES, CREEP, switching
 from estimators.fused.track import Moment, Track
 from estimators.poses import Array, wrap_angle
 
@@ -25,28 +25,34 @@ STANDS: Final = 1e-3
 
 
 class _Step(NamedTuple):
-    """One step of the filter: the prediction, its derivatives by the step before, and the state after."""
+    """One step of the filter: the prediction, its derivatives by the step before, and the state after.
+
+    `J` are derivatives of a state by what is calibrated.
+    """
 
     predicted: Array
     P_predicted: Array
     A: Array
     x: Array
     P: Array
+    J_predicted: Array
+    J: Array
 
 
 def smoothed(track: Track, moments: Sequence[Moment]) -> list[tuple[Array, Array]]:
-    """State (n,) and covariance (n, n) at each moment, given all of them."""
+    """State (n,) and covariance (n, n) at each moment, given all of them; with what the calibration leaves open."""
     if not moments:
         return []
     steps = _forward(track, moments, _modes(track, moments))
-    x, P = steps[-1].x, steps[-1].P
-    results = [(x, P)]
+    _, _, _, x, P, _, J = steps[-1]
+    results = [(x, track.slopes.widened(P, J))]
     for before, after in zip(steps[-2::-1], steps[:0:-1], strict=True):
         G = np.linalg.solve(after.P_predicted, after.A @ before.P).T
         x = before.x + G @ (x - after.predicted)
         P = before.P + G @ (P - after.P_predicted) @ G.T
         P = 0.5 * (P + P.T)
-        results.append((x, P))
+        J = before.J + G @ (J - after.J_predicted)
+        results.append((x, track.slopes.widened(P, J)))
     return results[::-1]
 
 
@@ -74,8 +80,8 @@ def _forward(track: Track, moments: Sequence[Moment], modes: Array) -> list[_Ste
     rest = np.array([m.at_rest for m in model.modes])
     creep = np.zeros((n, n))
     creep[:3, :3] = np.diag(CREEP)
-    x, P = track.start
-    steps = [_Step(x, P, np.eye(n), x, P)]
+    x, P, J = track.start
+    steps = [_Step(x, P, np.eye(n), x, P, J, J)]
     for (before, moment), chance in zip(pairwise(moments), modes[1:], strict=True):
         reading = moment.reading
         dt = reading.stamp - before.reading.stamp
@@ -89,21 +95,26 @@ def _forward(track: Track, moments: Sequence[Moment], modes: Array) -> list[_Ste
             fade[n - BIASES :][reading.biases] = reading.kept(latest, model.velocities(x[None]), turns)[0]
         x, A = fade * x, fade[:, None] * A
         P = A @ P @ A.T + fade[:, None] * Q * fade + np.diag(1 - fade**2)
-        predicted, P_predicted = x, P
+        J = A @ J
+        predicted, P_predicted, J_predicted = x, P, J
         if chance[rest].sum() > RESTS:
             speeds = np.eye(n)[3 : 3 + len(model.speed_sigmas)]
-            x, P = _update(x, P, -(speeds @ x), speeds, STANDS**2 * np.eye(len(speeds)))
+            none = np.zeros((len(speeds), J.shape[1]))
+            x, P, J = _update(x, P, J, -(speeds @ x), speeds, STANDS**2 * np.eye(len(speeds)), none)
         if moment.accepted:
             expected, H = reading.expected(x[None])
             residual = reading.z - expected[0]
             residual[reading.angles] = wrap_angle(residual[reading.angles])
-            x, P = _update(x, P, residual, H[0], reading.R)
-        steps.append(_Step(predicted, P_predicted, A, x, P))
+            by_calibration = track.slopes.of(reading, model, x[None], H)[0]
+            x, P, J = _update(x, P, J, residual, H[0], reading.R, by_calibration)
+        steps.append(_Step(predicted, P_predicted, A, x, P, J_predicted, J))
     return steps
 
 
-def _update(x: Array, P: Array, residual: Array, H: Array, R: Array) -> tuple[Array, Array]:
-    """State and covariance after a measurement."""
+def _update(
+    x: Array, P: Array, J: Array, residual: Array, H: Array, R: Array, slopes: Array
+) -> tuple[Array, Array, Array]:
+    """State, covariance and derivatives by what is calibrated after a measurement; its own are `slopes` (k, q)."""
     K = np.linalg.solve(H @ P @ H.T + R, H @ P).T
     A = np.eye(len(x)) - K @ H
-    return x + K @ residual, A @ P @ A.T + K @ R @ K.T
+    return x + K @ residual, A @ P @ A.T + K @ R @ K.T, A @ J + K @ slopes

@@ -7,8 +7,9 @@ from typing import Final
 
 import numpy as np
 
+from estimators.fused.calibration_slopes import CalibrationSlopes
 from estimators.fused.frame_reading import MarkerReading
-from estimators.fused.mode_filter import Innovation, ModeFilter
+from estimators.fused.mode_filter import Innovation, ModeFilter, Slopes
 from estimators.fused.motion import MotionModel
 from estimators.fused.readings import Reading
 from estimators.fused.scan_reading import PositionReading
@@ -31,6 +32,7 @@ class Moment:
         P: Their covariances (M, n, n).
         weights: Probabilities of the modes (M,).
         latest: The latest reading of each kind.
+        J: Derivatives of the states by what is calibrated (M, n, q).
     """
 
     reading: Reading
@@ -39,6 +41,7 @@ class Moment:
     P: Array
     weights: Array
     latest: dict[type, Reading]
+    J: Array
 
     @property
     def accepted(self) -> bool:
@@ -54,26 +57,36 @@ class Track:
         first: The fix that it starts from.
         seen: The marker measurement that gives its first heading; None if there is none, and what is followed
             is a point.
+        slopes: How readings follow what is calibrated.
         keep: Whether `moments` goes back to the start.
 
     Attributes:
         model: How it moves.
         oriented: Whether it has a heading.
-        start: State (n,) and covariance (n, n) after the first fix.
+        slopes: As above.
+        start: State (n,), covariance (n, n) and derivatives by what is calibrated (n, q) after the first fix.
         first_stamp: Of that fix [s].
     """
 
     def __init__(
-        self, model: MotionModel, first: PositionReading, seen: MarkerReading | None, keep: bool = False
+        self,
+        model: MotionModel,
+        first: PositionReading,
+        seen: MarkerReading | None,
+        slopes: CalibrationSlopes,
+        keep: bool = False,
     ) -> None:
         self.model = model
+        self.slopes = slopes
         self.oriented = seen is not None
         self.first_stamp = first.stamp
-        self._filter = ModeFilter(model)
+        self._filter = ModeFilter(model, slopes.count)
         base = seen.first_pose(first.z) if seen else Pose2(x=float(first.z[0]), y=float(first.z[1]))
         self._filter.start(base.x, base.y, base.yaw)
-        self._filter.update(first.z, first.expected, first.R, first.angles, np.inf)
-        self.start = self._filter.combined()
+        self._filter.update(
+            first.z, first.expected, first.R, first.angles, np.inf, slopes=self._slopes(first)
+        )
+        self.start = *self._filter.combined(), self._filter.combined_slopes()
         self._passed: list[Moment] | None = [] if keep else None
         self._moments = [self._moment(first, None, {PositionReading: first})]
         self._ahead: tuple[Moment, float] | None = None  # from which moment to what time the filter is now
@@ -100,9 +113,10 @@ class Track:
         return self._filter.combined()
 
     def now(self) -> tuple[Array, Array]:
-        """State (n,) and covariance (n, n) at the latest measurement."""
+        """State (n,) and covariance (n, n) at the latest measurement, with what the calibration leaves open."""
         self._predict(self._moments[-1], self.stamp)
-        return self._filter.combined()
+        state, P = self._filter.combined()
+        return state, self.slopes.widened(P, self._filter.combined_slopes()) if self.slopes.count else P
 
     def velocity(self) -> Array:
         """vx, vy (2,) at the latest measurement [m/s]."""
@@ -132,7 +146,9 @@ class Track:
         self._ahead = None
         f, before = self._filter, last.latest.get(type(reading))
         if before is None:
-            innovation = f.update(reading.z, reading.expected, reading.R, reading.angles, GATE)
+            innovation = f.update(
+                reading.z, reading.expected, reading.R, reading.angles, GATE, slopes=self._slopes(reading)
+            )
         else:
             motion = f.model.velocities(f.x), f.turning()
             f.forget(reading.biases, reading.kept(before, *motion))
@@ -143,6 +159,7 @@ class Track:
                 reading.angles,
                 GATE,
                 lambda log_likelihood: reading.plausible(before, *motion, log_likelihood),
+                self._slopes(reading),
             )
         self._moments.append(self._moment(reading, innovation, {**last.latest, type(reading): reading}))
         return innovation
@@ -152,10 +169,16 @@ class Track:
         if self._ahead is not None and self._ahead[0] is moment and self._ahead[1] == stamp:
             return
         f = self._filter
-        f.x, f.P, f.weights = moment.x, moment.P, moment.weights
+        f.x, f.P, f.weights, f.J = moment.x, moment.P, moment.weights, moment.J
         f.predict(stamp - moment.reading.stamp)
         self._ahead = moment, stamp
 
     def _moment(self, reading: Reading, innovation: Innovation | None, latest: dict[type, Reading]) -> Moment:
         f = self._filter
-        return Moment(reading, innovation, f.x, f.P, f.weights, latest)
+        return Moment(reading, innovation, f.x, f.P, f.weights, latest, f.J)
+
+    def _slopes(self, reading: Reading) -> Slopes | None:
+        """How the filter's measurement follows what is calibrated; None if that is taken to be exact."""
+        if not self.slopes.count:
+            return None
+        return lambda states, H: self.slopes.of(reading, self.model, states, H)

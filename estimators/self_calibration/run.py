@@ -26,6 +26,7 @@ from estimators.self_calibration.places import (
 )
 from estimators.self_calibration.quantities import PRIOR, Q, values_of, with_vector
 from estimators.self_calibration.sightings import Sightings, find_pan_offset, find_sightings
+from estimators.self_calibration.uncertainty import correlations_of
 from estimators.self_calibration.walls import find_walls
 
 FEWEST_SCANS: Final = 20
@@ -64,6 +65,11 @@ class SelfCalibration:
         """Of the quantities (10,)."""
         errors: Array = np.sqrt(np.diag(self.solution.covariance))
         return errors
+
+    @property
+    def correlations(self) -> dict[str, float]:
+        """Of the quantities' errors, by pairs of names."""
+        return correlations_of(self.solution.covariance)
 
     @property
     def observed(self) -> NDArray[np.bool_]:

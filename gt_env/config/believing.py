@@ -34,4 +34,5 @@ def believing(config: EnvConfig, found: CalibrationFile) -> EnvConfig:
     belief: dict[str, Any] = dict(config.belief)
     for name in found.values:
         belief = merge(belief, nested(*keys[name]))
-    return load_config(config, {"belief": belief})
+    known = {"standard_errors": dict(found.standard_errors), "correlations": dict(found.correlations)}
+    return load_config(config, {"belief": {**belief, "uncertainty": known}})

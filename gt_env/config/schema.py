@@ -13,6 +13,7 @@ from estimators.calibration import DEG, Calibration, Motion
 from estimators.errors import ConfigError
 from estimators.poses import Pose2
 from estimators.room import Room
+from estimators.self_calibration.uncertainty import problems
 from gt_env.config.merging import merge
 from gt_env.config.onboard import onboard_problems
 from gt_env.config.robots import robot_problems
@@ -28,13 +29,14 @@ from gt_env.config.sections import (
     TargetConfig,
     TaskConfig,
     TimingConfig,
+    UncertaintyConfig,
     section,
 )
 from gt_env.config.shape import robot_shape
 
 MOTIONS: dict[str, Motion] = {"skid_steer": "skid", "ackermann": "steered", "omni3": "holonomic"}
 """How robots move that do not only along their heading."""
-BELIEF_SECTIONS = ("room", "target", "lrf", "camera", "pan", "onboard")
+BELIEF_SECTIONS = ("room", "target", "lrf", "camera", "pan", "onboard", "uncertainty")
 
 
 @section
@@ -42,8 +44,8 @@ class EnvConfig:
     """Everything that an environment is made of.
 
     `belief` holds what the estimators and the pan unit's tracker believe where that differs from what is: a
-    partial mapping over the sections `room`, `target`, `lrf`, `camera`, `pan` and
-    `onboard`; what stands under `onboard` is believed by the robot's own localizers.
+    partial mapping over the sections `room`, `target`, `lrf`, `camera`, `pan`,
+    `onboard` and `uncertainty`; what stands under `onboard` is believed by the robot's own localizers.
     """
 
     room: RoomConfig = field(default_factory=RoomConfig)
@@ -57,6 +59,7 @@ class EnvConfig:
     timing: TimingConfig = field(default_factory=TimingConfig)
     onboard: OnboardConfig = field(default_factory=OnboardConfig)
     task: TaskConfig = field(default_factory=TaskConfig)
+    uncertainty: UncertaintyConfig = field(default_factory=UncertaintyConfig)
     belief: dict[str, Any] = field(default_factory=dict)
 
     @model_validator(mode="after")
@@ -93,6 +96,7 @@ class EnvConfig:
             target=self.target.calibration(),
             motion=MOTIONS.get(self.robot.model, "unicycle"),
             turning_center=self.robot.turning_center,
+            uncertainty=self.uncertainty.covariance(),
         )
 
     @property
@@ -139,6 +143,8 @@ def _problems(c: EnvConfig) -> Iterator[str]:
     yield from _camera_problems(c)
     yield from onboard_problems(c)
     yield from _room_problems(c)
+    for problem in problems(c.uncertainty.standard_errors, c.uncertainty.correlations):
+        yield f"uncertainty.{problem}"
 
 
 def _camera_problems(c: EnvConfig) -> Iterator[str]:

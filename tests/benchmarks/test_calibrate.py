@@ -106,6 +106,9 @@ def test_a_configuration_believes_what_the_file_says(short, written):
     by_config = believing(config, read).believed().calibration()
     by_file = read.over(config.believed().calibration())
     assert values_of(by_config) == pytest.approx(values_of(by_file), abs=1e-12)
+    assert np.array(by_config.uncertainty) == pytest.approx(np.array(by_file.uncertainty), abs=0.0)
+    assert np.count_nonzero(np.diag(by_file.uncertainty)) == len(read.values)
+    assert config.believed().calibration().uncertainty is None
     assert values_of(believing(config, read).calibration()) == pytest.approx(values_of(config.calibration()))
 
 

@@ -23,7 +23,7 @@ def calibration(thesis_room):
     return Calibration(room=thesis_room)
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def ideal_scan():
     """A function that ranges a room with a cylinder in it, without noise."""
 

@@ -69,6 +69,7 @@ def test_what_was_not_observable_stays_as_it_was_believed(calibration, tmp_path)
         ('"lrf.x" = 0.001\n', "", "standard_errors has no 'lrf.x'"),
         ("not_observable = []", 'not_observable = ["lrf.x"]', "lrf.x has a value and is in not_observable"),
         ("[station]\n", "[station]\nfloor = 2\n", "unknown key station.floor"),
+        ("[correlations]\n", '[correlations]\n"lrf.x" = 0.5\n', "correlations.lrf.x: must be two quantities"),
         ("[lrf]", "[lrf", "not a TOML file"),
     ],
 )

@@ -7,6 +7,7 @@ from gt_env.config.sections.room import BoxObstacle, CylinderObstacle, RoomConfi
 from gt_env.config.sections.simulation import LampConfig, LightConfig, PhysicsConfig, TimingConfig
 from gt_env.config.sections.station import CameraConfig, LrfConfig, PanConfig
 from gt_env.config.sections.task import RandomizationConfig, RewardConfig, TaskConfig
+from gt_env.config.sections.uncertainty import UncertaintyConfig
 
 __all__ = [
     "BoxObstacle",
@@ -29,6 +30,7 @@ __all__ = [
     "TargetConfig",
     "TaskConfig",
     "TimingConfig",
+    "UncertaintyConfig",
     "UrdfObstacle",
     "section",
 ]

@@ -1,0 +1,95 @@
+"""How what is read would differ, were the station's calibration another.
+
+The filter takes the calibration as it is given. Along with its state it carries the derivatives of that state by the
+calibrated quantities: each measurement moves them with the same gain as the state. The calibration's own covariance,
+through these derivatives, adds to the filter's what an unknown constant adds (the consider covariance of Schmidt,
+"Application of state-space methods to navigation problems", Advances in Control Systems 3, 1966), with the gain left
+as it is: no estimate depends on it.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+
+from estimators.calibration import Calibration
+from estimators.fused.frame_reading import MarkerReading
+from estimators.fused.motion import MotionModel
+from estimators.fused.readings import YAW, Reading
+from estimators.fused.scan_reading import PositionReading
+from estimators.poses import Array
+from estimators.self_calibration.quantities import Q
+
+THICKER: Final = 0.5 * math.pi
+"""How far the fix moves away for a thicker target, over the radius: the mean over its width of one over the cosine at
+which beams meet it (simulated at 1.5 to 4 m: medians of 1.4 to 1.6)."""
+
+
+class CalibrationSlopes:
+    """Derivatives of readings by the calibrated quantities.
+
+    Args:
+        calibration: What is believed, with the covariance of its quantities or without.
+
+    Attributes:
+        covariance: Of the quantities (q, q); q is 0 where none is stated.
+    """
+
+    def __init__(self, calibration: Calibration) -> None:
+        self.covariance = np.array(calibration.uncertainty or np.empty((0, 0)))
+        self._lrf = np.array([calibration.lrf.pose.x, calibration.lrf.pose.y])
+        self._radius, self._fov = calibration.target.radius, calibration.camera.fov
+
+    @property
+    def count(self) -> int:
+        """Of quantities that may be off."""
+        return len(self.covariance)
+
+    def of(self, reading: Reading, model: MotionModel, states: Array, H: Array) -> Array:
+        """How much more a reading would say (M, k, q).
+
+        Args:
+            reading: What was read (k,).
+            model: How the states go on.
+            states: As they were expected (M, n).
+            H: Derivatives (M, k, n) of what they would read.
+        """
+        slopes = np.zeros((*H.shape[:2], self.count))
+        if not self.count:
+            return slopes
+        if isinstance(reading, PositionReading):
+            slopes[:] = self._of_fix(reading)
+        elif isinstance(reading, MarkerReading):
+            slopes[:] = self._of_frame(reading)
+            slopes[:, :, Q.CAMERA_X : Q.CAMERA_Y + 1] = H[:, :, :2]
+            # A clock that stamps later: what is read belongs to an earlier time.
+            rate = states[:, YAW + len(model.speed_sigmas)]
+            speeds = np.column_stack([model.velocities(states), rate])
+            slopes[:, :, Q.CLOCK_OFFSET] = (H[:, :, : YAW + 1] @ speeds[:, :, None])[:, :, 0]
+        return slopes
+
+    def widened(self, P: Array, slopes: Array) -> Array:
+        """Covariance (n, n) of a state with what the calibration leaves open, from its derivatives (n, q)."""
+        return P + slopes @ self.covariance @ slopes.T if self.count else P
+
+    def _of_fix(self, reading: PositionReading) -> Array:
+        d = reading.z - self._lrf
+        away = d / np.hypot(*d)
+        slopes = np.zeros((2, self.count))
+        slopes[0, Q.LRF_X] = slopes[1, Q.LRF_Y] = 1.0
+        slopes[:, Q.LRF_YAW] = -d[1], d[0]
+        slopes[:, Q.RANGE_BIAS] = -away
+        slopes[:, Q.RADIUS] = THICKER * away
+        return slopes
+
+    def _of_frame(self, reading: MarkerReading) -> Array:
+        """Of bearing and yaw, by pan offset, lens and radius; by the latter two as by another distance."""
+        seen = reading.seen
+        slopes = np.zeros((2, self.count))
+        slopes[:, Q.PAN_OFFSET] = 1.0
+        aside = math.sin(2 * (seen.bearing - seen.direction)) / 2
+        slopes[:, Q.FOV] = (aside + seen.sensitivity * seen.distance) / math.sin(self._fov)
+        slopes[:, Q.RADIUS] = -seen.sensitivity * seen.distance / self._radius
+        return slopes
