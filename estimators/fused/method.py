@@ -98,6 +98,7 @@ class FusedEstimator:
         self._lost: PoseEstimate | None = None  # the last estimate before the target was lost
         self._fix: PositionReading | None = None  # the last one that was believed
         self._view: MarkerReading | None = None  # the first that showed the side that is seen now
+        self._alike, self._spread = 0, np.zeros((2, 2))  # how many did, and their mean covariance
         self._fix_stamp = self._yaw_stamp = -math.inf  # of what was accepted last
         self._missed = self._refused = 0
         self._known: deque[tuple[type, str, float]] = deque(maxlen=REMEMBERED)
@@ -203,8 +204,10 @@ class FusedEstimator:
         """A frame as the filter takes it; `yaw` is the target's, as known before [rad]."""
         side, view = yaw - seen.bearing, self._view
         if view is not None and view.shows_side(side, seen.distance):
-            return MarkerReading(seen.steadied(view.seen), self._mount, side, view)
-        self._view = MarkerReading(seen, self._mount, side)
+            self._alike += 1
+            self._spread = self._spread + (seen.covariance - self._spread) / self._alike
+            return MarkerReading(seen.steadied(view.seen, self._spread), self._mount, side, view)
+        self._view, self._alike, self._spread = MarkerReading(seen, self._mount, side), 1, seen.covariance
         return self._view
 
     def _target(self, track: Track, stamp: float) -> tuple[Array, Array, float | None]:

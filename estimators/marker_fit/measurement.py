@@ -149,14 +149,19 @@ class MarkerMeasurement:
             return None
         return bool(np.array_equal(self.samples, earlier.samples))
 
-    def steadied(self, earlier: MarkerMeasurement) -> MarkerMeasurement:
-        """The same with the sensitivity and the lean of an earlier frame of the same view.
+    def steadied(self, earlier: MarkerMeasurement, covariance: Array) -> MarkerMeasurement:
+        """The same with what frames of one view must have in common to a filter.
 
-        Which pixels the edges fall on, and which of them noise lets count, move both, and the yaw with them. To a
-        filter, frames of one pose that differed in them would say at which distance they agree: noise would pass for
-        a range.
+        Which pixels the edges fall on, and which of them noise lets count, move sensitivity and lean, and the yaw with
+        them. Frames of one pose that differed in them would say at which distance they agree: noise would pass for a
+        range. Where a pixel is one sample the covariance follows the very error that it describes, too, and their
+        weighted mean would lean to one side.
 
         Args:
             earlier: A frame before, in which the target showed the same side.
+            covariance: (2, 2) mean of all frames that did, up to this one [rad^2].
         """
-        return replace(self, sensitivity=earlier.sensitivity, lean=earlier.lean)
+        if not self.quantised:
+            return replace(self, sensitivity=earlier.sensitivity, lean=earlier.lean)
+        lean = float(covariance[0, 1] / covariance[0, 0])
+        return replace(self, sensitivity=earlier.sensitivity, covariance=covariance, lean=lean)

@@ -131,12 +131,22 @@ def test_frames_follow_the_distance_alike_until_the_target_turns_or_comes_nearer
     other = dataclasses.replace(
         measurement, view=np.array([3.3, 0.4]), sensitivity=np.array([0.0, 0.5]), lean=9.0
     )
-    kept = other.steadied(measurement)
+    kept = other.steadied(measurement, 2 * other.covariance)
     assert (kept.lean, kept.sensitivity.tolist()) == (5.0, measurement.sensitivity.tolist())
+    assert kept.covariance is other.covariance
     first = MarkerReading(measurement, Pose2(), 0.5)
     assert first.shows_side(0.5 - 2 * math.pi + 0.01, measurement.distance)
     assert not first.shows_side(0.55, measurement.distance)
     assert not first.shows_side(0.5, 0.95 * measurement.distance)
+
+
+def test_frames_of_single_samples_weigh_alike_whatever_each_says_of_itself(measurement):
+    """The middle of a polygon of poses and its width go together: their weighted mean would be off."""
+    mean = np.array([[4e-8, 6e-7], [6e-7, 2e-5]])
+    frame = dataclasses.replace(measurement, quantised=True, covariance=9 * mean, lean=9.0)
+    kept = frame.steadied(measurement, mean)
+    np.testing.assert_array_equal(kept.covariance, mean)
+    assert kept.lean == pytest.approx(15.0)
 
 
 def test_what_lasts_follows_how_the_robot_moves_and_not_what_a_frame_says(measurement):
