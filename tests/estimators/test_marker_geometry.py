@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from estimators import CameraCalibration, TargetGeometry
+from estimators import CameraCalibration, FusedEstimator, TargetGeometry
 from estimators.fused.frame_reading import SHAPE_TURN, MarkerReading
 from estimators.fused.mode_filter import ModeFilter
 from estimators.fused.rolling import Unicycle
@@ -147,6 +147,17 @@ def test_frames_of_single_samples_weigh_alike_whatever_each_says_of_itself(measu
     kept = frame.steadied(measurement, mean)
     np.testing.assert_array_equal(kept.covariance, mean)
     assert kept.lean == pytest.approx(15.0)
+
+
+def test_the_filter_gives_frames_of_a_view_the_mean_of_their_covariances(calibration, measurement):
+    estimator = FusedEstimator(calibration)
+    frame = dataclasses.replace(measurement, quantised=True)
+    for scale, mean in ((1.0, 1.0), (3.0, 2.0), (5.0, 3.0)):
+        seen = dataclasses.replace(frame, covariance=scale * frame.covariance)
+        reading = estimator._marker_reading(seen, frame.yaw)
+        np.testing.assert_allclose(reading.seen.covariance, mean * frame.covariance)
+    turned = estimator._marker_reading(frame, frame.yaw + 0.1)
+    np.testing.assert_allclose(turned.seen.covariance, frame.covariance)
 
 
 def test_what_lasts_follows_how_the_robot_moves_and_not_what_a_frame_says(measurement):
