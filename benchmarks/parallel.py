@@ -108,6 +108,8 @@ def run_side_by_side(
         ClusterError: If the engine's cluster does not answer.
         SweepError: If tasks raised, or the processes that they ran in died; all others were carried out.
     """
+    if not tasks:
+        return []
     engine = engine or Engine()
     order = sorted(range(len(tasks)), key=lambda i: -steps[i])
     with tempfile.TemporaryDirectory(prefix="gt-env-") as folder, running(engine, jobs):

@@ -45,6 +45,14 @@ StressOption = Annotated[
 ]
 RoomsOption = Annotated[bool, typer.Option("--rooms", help="Also other rooms, targets and rangefinders.")]
 RobotsOption = Annotated[bool, typer.Option("--robots", help="Also other robots, all on the same ways.")]
+PARTS = ("cameras", "stress", "rooms", "robots")
+"""What goes beyond the usual validation, by the name of its option."""
+OnlyOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--only", metavar="PART", help=f"One of these ({', '.join(PARTS)}) and nothing usual; repeatable."
+    ),
+]
 DEFAULT_METHODS = ("thesis", "fused", "smooth")
 
 
@@ -64,6 +72,7 @@ def validate(
     stress: StressOption = False,
     rooms: RoomsOption = False,
     robots: RobotsOption = False,
+    only: OnlyOption = None,
 ) -> None:
     """Repeat the thesis's validation beside its published numbers, and go beyond it: limits, honesty, other methods."""
     from benchmarks.cameras import plan_cameras, run_cameras
@@ -76,15 +85,18 @@ def validate(
     from benchmarks.rooms import plan_rooms, run_rooms
     from benchmarks.validation import plan_validation, run_validation
 
+    parts = _parts(only, dict(zip(PARTS, (cameras, stress, rooms, robots), strict=True)))
     methods, settings = _methods(method), configuration(config, overrides, calibration)
     place = Engine(name=engine, address=address)
     if not no_figures:
         require_report_extra()
     check_writable(out)
-    plan = plan_validation(settings, methods, seed=seed, quick=quick, stress=stress)
-    camera_plan = plan_cameras(settings, methods, seed=seed, quick=quick) if cameras else None
-    room_plan = plan_rooms(settings, methods, seed=seed, quick=quick) if rooms else None
-    robot_plan = plan_robots(settings, methods, seed=seed, quick=quick) if robots else None
+    plan = plan_validation(
+        settings, methods, seed=seed, quick=quick, stress="stress" in parts, usual=not only
+    )
+    camera_plan = plan_cameras(settings, methods, seed=seed, quick=quick) if "cameras" in parts else None
+    room_plan = plan_rooms(settings, methods, seed=seed, quick=quick) if "rooms" in parts else None
+    robot_plan = plan_robots(settings, methods, seed=seed, quick=quick) if "robots" in parts else None
     watched_arena(settings, methods).close()  # what is wrong with the set-up is said here, not by a worker
     console = Console(emoji=False)
     running: dict[str, Any] = {"jobs": jobs, "console": console, "engine": place}
@@ -102,8 +114,9 @@ def validate(
         rooms=elsewhere,
         robots=others,
     )
-    parts = {"quick": quick, "cameras": cameras, "stress": stress, "rooms": rooms, "robots": robots}
-    command = validate_command(config, overrides or [], seed, methods, **parts)
+    command = validate_command(
+        config, overrides or [], seed, methods, quick=quick, only=bool(only), parts=parts
+    )
     command += "" if calibration is None else f" --calibration {shlex.quote(str(calibration))}"
     setup = describe(plan, command)
     if outcome.failed is not None:
@@ -119,6 +132,13 @@ def validate(
     for table in outcome.tables():
         console.print(rich_table(table))
     console.print(str(out / report), soft_wrap=True, highlight=False, markup=False)
+
+
+def _parts(only: list[str] | None, beside: dict[str, bool]) -> list[str]:
+    """What is done beyond the usual, in one order whatever the order of the options."""
+    for name in only or ():
+        require_one_of("--only", name, PARTS)
+    return [part for part in PARTS if beside[part] or part in (only or ())]
 
 
 def _methods(names: list[str] | None) -> tuple[str, ...]:

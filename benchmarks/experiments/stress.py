@@ -11,6 +11,7 @@ from benchmarks.driving import ideal_poses, script, start_pose
 from benchmarks.experiments.course import Course
 from benchmarks.experiments.moving import EIGHT_PATH
 from benchmarks.paths import timed_poses
+from benchmarks.steerable import turning_radius
 from estimators.poses import Array
 from gt_env.config import EnvConfig, load_config
 
@@ -37,6 +38,8 @@ def stress_runs(
 ) -> dict[str, tuple[Course, ...]]:
     """Courses by what is hard; `usual` are the drives that `swept`, `slip` and `uneven-slip` are compared with.
 
+    A robot that cannot turn on the spot has no `whirl`.
+
     Args:
         config: Of the room.
         methods: Who watches.
@@ -61,6 +64,8 @@ def stress_runs(
     quick = _able(config, FAST)
     far = timed_poses("far", quick, speed=FAST, duration=SECONDS)
     runs["fast"] = _courses(quick, methods, [far] * len(fast), fast)
+    if turning_radius(config.robot):
+        return runs
     nimble = _able(config, 0.5 * WHIRL * config.robot.track)
     runs["whirl"] = _courses(nimble, methods, [_rounds(nimble)] * len(whirl), whirl)
     return runs

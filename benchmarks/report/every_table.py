@@ -24,7 +24,8 @@ def every_table(
     goals: list[Goal] | None = None,
 ) -> list[Table]:
     """Those of chapter 5, then what else was done, last the summary and how it compares with the targets."""
-    tables = [*all_tables(scores), drive_table(scores)]
+    usual = any(scores.static.values())
+    tables = [*all_tables(scores), drive_table(scores)] if usual else []
     if scores.alone:
         tables.append(blind_table(scores))
     if scores.scans:
@@ -38,5 +39,6 @@ def every_table(
         tables.append(robot_table(robots))
     if cameras is not None:
         tables += camera_tables(cameras)
-    tables.append(summary_table(scores))
+    if usual:
+        tables.append(summary_table(scores))
     return [*tables, goal_table(goals)] if goals else tables

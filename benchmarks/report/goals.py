@@ -74,17 +74,17 @@ def _rest_goals(targets: Targets, scores: Scores) -> Iterator[Goal]:
 
 
 def _drive_goals(targets: Targets, scores: Scores) -> Iterator[Goal]:
-    if ONLINE in scores.methods:
+    if ONLINE in scores.travels:
         s, spins = scores.travels[ONLINE], scores.moving[ONLINE]
         yield millimetres(f"{DRIVES}: RMSE", ONLINE, targets.online, s.rmse_xy)
         yield millimetres(f"{DRIVES}: largest error", ONLINE, targets.online_max, s.max_xy)
         yield degrees(f"{DRIVES}: heading", ONLINE, targets.heading, s.mae[2])
         yield degrees(f"{DRIVES}: heading, 99 %", ONLINE, targets.heading_p99, s.p99_yaw)
-    if AFTER in scores.methods:
+    if AFTER in scores.travels:
         s = scores.travels[AFTER]
         yield millimetres(f"{DRIVES}: RMSE", AFTER, targets.smoothed, s.rmse_xy)
         yield degrees(f"{DRIVES}: heading", AFTER, targets.heading_smoothed, s.mae[2])
-    if ONLINE in scores.methods:
+    if ONLINE in scores.travels:
         yield degrees("turning on the spot: heading", ONLINE, targets.spin, spins["spin"].mae[2])
         if "spin-dithered" in spins:
             swept = spins["spin-dithered"].mae[2]

@@ -49,7 +49,7 @@ def html_page(
     )  # fmt: skip
     pictures = {p.name: base64.b64encode((folder / f"{p.name}.png").read_bytes()).decode() for p in plates}
     return environment.get_template("validate.html.j2").render(
-        facts={method: _facts(scores, method) for method in scores.methods},
+        facts={method: _facts(scores, method) for method, of in scores.static.items() if of},
         tables=tables,
         sections=SECTIONS,
         plates=plates,

@@ -35,6 +35,8 @@ TO_ERROR_UNITS = (MM, MM, DEGREES)
 Triple = tuple[float | None, ...]
 BEFORE_END: Final = 1.0
 """Samples for the consistency end so long before a run does, so that a method that looks back has something to [s]."""
+CHILD: Final = 8
+"""Which child of the seed draws the samples of the harder drives; plans take the others."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,7 +77,10 @@ class ScanScore:
 class Scores:
     """`gt vs true`, by method and then by test point or drive.
 
+    What was not done is empty.
+
     Attributes:
+        methods: In the order in which they were asked for.
         static: At the test points.
         spreads: There as well.
         moving: By drive.
@@ -90,6 +95,7 @@ class Scores:
         stress_honesty: By what was hard and then by method that states a covariance.
     """
 
+    methods: tuple[str, ...]
     static: dict[str, dict[str, Score]]
     spreads: dict[str, dict[str, Spread]]
     moving: dict[str, dict[str, Score]]
@@ -102,11 +108,6 @@ class Scores:
     whiteness: dict[str, dict[str, Whiteness]]
     stress: dict[str, dict[str, Score]]
     stress_honesty: dict[str, dict[str, Consistency]]
-
-    @property
-    def methods(self) -> tuple[str, ...]:
-        """In the order in which they were asked for."""
-        return tuple(self.static)
 
     def static_mae(self, method: str) -> Triple:
         """Mean absolute error averaged over the test points [m, m, rad], as in 5.1."""
@@ -126,10 +127,11 @@ def score_validation(validation: Validation) -> Scores:
     situations = {f"rest-{kind}": of for kind, of in v.rest.items()}
     if v.driving:
         situations["driving"] = v.driving
-    rng = np.random.default_rng(v.plan.seed)
-    judged, hard = (
-        {name: honesty(of, methods, rng) for name, of in all_of.items()} for all_of in (situations, v.stress)
-    )
+    # A generator of its own: what is said of harder drives does not depend on whether anything else was done.
+    of_hard = np.random.default_rng(np.random.SeedSequence(v.plan.seed, spawn_key=(CHILD,)))
+    of_usual = np.random.default_rng(v.plan.seed)
+    judged = {name: honesty(of, methods, of_usual) for name, of in situations.items()}
+    hard = {name: honesty(of, methods, of_hard) for name, of in v.stress.items()}
     watching = dict.fromkeys(HINDSIGHT[m] for m in methods if m in HINDSIGHT)
     white = {
         m: {kind: whiteness(v.driving, m, kind, after=STARTED) for kind in KINDS}
@@ -137,10 +139,11 @@ def score_validation(validation: Validation) -> Scores:
         if v.driving
     }
     return Scores(
+        methods=methods,
         static={m: {p: score(r.tracks[m], r.t) for p, r in v.static.items()} for m in methods},
         spreads={m: {p: spread(r.tracks[m]) for p, r in v.static.items()} for m in methods},
         moving={m: {d: score(r.tracks[m], r.t) for d, r in v.moving.items()} for m in methods},
-        travels={m: together(travels, m) for m in methods},
+        travels={m: together(travels, m) for m in methods if travels},
         alone={m: {d: score(r.tracks[m], r.t) for d, r in v.alone.items()} for m in blind},
         alone_travels={m: together(list(v.alone.values()), m) for m in blind},
         scans={p: scan_score(fixes) for p, fixes in v.scans.items()},

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import platform
 import shlex
+from collections.abc import Sequence
 from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
@@ -45,18 +46,17 @@ def validate_command(
     methods: tuple[str, ...],
     *,
     quick: bool,
-    cameras: bool = False,
-    stress: bool = False,
-    rooms: bool = False,
-    robots: bool = False,
+    only: bool = False,
+    parts: Sequence[str] = (),
 ) -> str:
-    """The command line that makes the same report again."""
+    """The command line that makes the same report again, `parts` being what is done beside or instead of the usual."""
     words = ["gt-env", "validate", "--config", config]
     for override in overrides:
         words += ["--set", override]
     words += ["--seed", str(seed)]
     for method in methods:
         words += ["--method", method]
-    words += ["--quick"] * quick + ["--cameras"] * cameras + ["--stress"] * stress
-    words += ["--rooms"] * rooms + ["--robots"] * robots
+    words += ["--quick"] * quick
+    for part in parts:
+        words += ["--only", part] if only else [f"--{part}"]
     return shlex.join(words)

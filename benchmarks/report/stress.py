@@ -12,15 +12,17 @@ COMPARED = ("swept", "slip", "uneven-slip")
 HARD = (
     "Robots are steered along their way by somebody who sees them. usual: path, tour and figure of eight; swept: the "
     "same with scans that take half their period; slip: with wheels that lose 5 % of their way; uneven-slip: each "
-    "wheel a random 2 % more or less, anew every 0.1 m; fast: 1.2 m/s at 2 m or more from the camera; whirl: "
-    "360 deg/s on the spot. heading: mean absolute error. more: RMSE beside that of the usual drives. "
+    "wheel a random 2 % more or less, anew every 0.1 m; fast: 1.2 m/s at 2 m or more from the camera; "
 )
+WHIRL = "whirl: 360 deg/s on the spot. "
+NO_WHIRL = "nothing on the spot, where this robot cannot turn. "
+COLUMNS = "heading: mean absolute error. more: RMSE beside that of the usual drives. "
 
 
 def stress_table(scores: Scores) -> Table:
     """Harder drives."""
-    rows = []
-    for kind in next(iter(scores.stress.values())):
+    rows, kinds = [], list(next(iter(scores.stress.values())))
+    for kind in kinds:
         for method in scores.methods:
             s, usual = scores.stress[method][kind], scores.stress[method].get("usual")
             more = None
@@ -38,7 +40,10 @@ def stress_table(scores: Scores) -> Table:
         title=f"Harder drives, the first {SECONDS:g} s of each{_runs(scores)}",
         head=(*named("drive", "method", scores), *SCORED, "inside 95 % [%]", "more [%]"),
         rows=tuple(rows),
-        note=HARD + honest_note(scores.stress_honesty.values()),
+        note=HARD
+        + (WHIRL if "whirl" in kinds else NO_WHIRL)
+        + COLUMNS
+        + honest_note(scores.stress_honesty.values()),
         section="stress",
     )
 

@@ -39,15 +39,12 @@ def report_json(
     `mean`, `std`, `mode` are x, y, yaw in [m, m, deg]; `mae` in [mm, mm, deg]; `valid` is a share of the
     samples; `nees` is null where a method states no covariance, any number where nothing valid was said.
     """
-    drives = next(iter(scores.moving.values()))
-    report = {
-        "setup": setup,
-        "static": {method: _static(scores, method) for method in scores.methods},
-        "moving": {d: {m: score_json(scores.moving[m][d]) for m in scores.methods} for d in drives},
-    }
+    drives = next(iter(scores.moving.values()), {})
     alone = next(iter(scores.alone.values()), {})
     travels = scores.alone_travels | scores.travels
-    further: dict[str, Any] = {
+    parts: dict[str, Any] = {
+        "static": {method: _static(scores, method) for method, of in scores.static.items() if of},
+        "moving": {d: {m: score_json(scores.moving[m][d]) for m in scores.methods} for d in drives},
         "limits": {point: limit_json(s) for point, s in scores.scans.items()},
         "rest": _by_kind(scores.rest),
         "without_camera": {d: {m: score_json(of[d]) for m, of in scores.alone.items()} for d in alone},
@@ -61,7 +58,7 @@ def report_json(
         "robots": robots,
         "goals": goals_json(goals),
     }
-    report |= {key: value for key, value in further.items() if value}
+    report = {"setup": setup} | {key: value for key, value in parts.items() if value}
     return json.dumps(report, indent=2, allow_nan=False) + "\n"
 
 

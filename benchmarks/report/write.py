@@ -83,11 +83,13 @@ def write_page(folder: Path, outcome: Outcome, setup: dict[str, Any], console: C
 
     validation, scores = outcome.validation, outcome.scores
     config, seed = validation.plan.config, validation.plan.seed
-    shown = [
-        *thesis_plates(validation, scores, scenes(config, seed)),
-        *further_plates(validation, scores),
-        *stress_plates(scores),
-    ]
+    shown = [*stress_plates(scores)]
+    if validation.static:
+        shown = [
+            *thesis_plates(validation, scores, scenes(config, seed)),
+            *further_plates(validation, scores),
+            *shown,
+        ]
     if outcome.rooms is not None:
         shown += room_plates(outcome.rooms)
     if outcome.robots is not None:

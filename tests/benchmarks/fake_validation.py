@@ -49,9 +49,10 @@ def fixes(run, rng):
     )
 
 
-def fake_validation(preset="thesis", sigma=0.004, stress=True):
+def fake_validation(preset="thesis", sigma=0.004, stress=True, usual=True):
     rng = np.random.default_rng(0)
-    plan = plan_validation(load_config(preset), METHODS, seed=0, quick=True, stress=stress)
+    config = load_config(preset)
+    plan = plan_validation(config, METHODS, seed=0, quick=True, stress=stress, usual=usual)
 
     def all_of(groups):
         return {name: tuple(watched(run, rng, sigma) for run in runs) for name, runs in groups.items()}

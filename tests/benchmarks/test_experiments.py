@@ -104,6 +104,11 @@ def test_hard_drives_are_as_hard_as_they_say():
         assert outer.max() < robot.max_wheel_speed * robot.wheel_radius
 
 
+def test_a_robot_that_cannot_turn_on_the_spot_is_not_asked_to():
+    steered = stress_runs(load_config("thesis", {"robot.model": "ackermann"}), METHODS, 1, seeds())
+    assert set(stress_runs(THESIS, METHODS, 1, seeds())) - set(steered) == {"whirl"}
+
+
 @pytest.mark.slow
 def test_a_robot_that_slips_is_kept_on_its_way():
     pytest.importorskip("pybullet")

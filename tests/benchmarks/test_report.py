@@ -100,6 +100,10 @@ def test_the_command_to_reproduce_is_quoted_for_a_shell():
     assert command == (
         "gt-env validate --config 'my room.toml' --set lrf.rate=20 --seed 7 --method thesis --quick"
     )
+    beside = validate_command("narrow", [], 7, ("fused",), quick=False, parts=("stress", "rooms"))
+    assert beside.endswith("--method fused --stress --rooms")
+    instead = validate_command("narrow", [], 7, ("fused",), quick=False, only=True, parts=("stress", "rooms"))
+    assert instead.endswith("--method fused --only stress --only rooms")
 
 
 @pytest.mark.parametrize("methods", [("thesis",), ("thesis", "other")])

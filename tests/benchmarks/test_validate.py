@@ -34,6 +34,11 @@ def test_an_unknown_method_is_refused(tmp_path):
         command.validate(method=["magic"], out=tmp_path)
 
 
+def test_an_unknown_part_is_refused(tmp_path):
+    with pytest.raises(ConfigError, match="--only magic: must be one of cameras, stress, rooms, robots"):
+        command.validate(only=["stress", "magic"], out=tmp_path)
+
+
 def test_a_station_without_a_rangefinder_is_refused(tmp_path, monkeypatch):
     refuse_to_simulate(monkeypatch)
     with pytest.raises(ConfigError, match=r"lrf\.enabled = false: must be true"):
