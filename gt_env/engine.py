@@ -16,7 +16,7 @@ from estimators.poses import Array
 from gt_env.body import Body
 from gt_env.config.sections import Color, LightConfig, PhysicsConfig
 from gt_env.quiet import quiet
-from gt_env.robot_model import RobotModel
+from gt_env.robot_model import ROUND_MESH, RobotModel
 from gt_env.software_camera import View, picture
 
 CONTACT_DISTANCE = 2e-5
@@ -90,16 +90,17 @@ class Engine:
             color: RGB.
             solid: Whether it can be touched and ranged.
         """
-        size = {"halfExtents": list(half)}
-        return self._add(self._p.GEOM_BOX, size, size, centre, yaw, color, solid)
+        size = {"shapeType": self._p.GEOM_BOX, "halfExtents": list(half)}
+        return self._add(size, size, centre, yaw, color, solid)
 
     def add_cylinder(
         self, centre: Sequence[float], radius: float, height: float, color: Color, *, solid: bool = True
     ) -> int:
         """A fixed upright cylinder; as `add_box`."""
-        touched = {"radius": radius, "height": height}
-        seen = {"radius": radius, "length": height}
-        return self._add(self._p.GEOM_CYLINDER, touched, seen, centre, 0.0, color, solid)
+        touched = {"shapeType": self._p.GEOM_CYLINDER, "radius": radius, "height": height}
+        scale = [radius, radius, height]
+        seen = {"shapeType": self._p.GEOM_MESH, "fileName": str(ROUND_MESH), "meshScale": scale}
+        return self._add(touched, seen, centre, 0.0, color, solid)
 
     def add_urdf(self, file: str, x: float, y: float, yaw: float) -> int:
         """A fixed body from a URDF file, with its base frame at x, y [m] on the floor, turned by yaw [rad].
@@ -201,7 +202,6 @@ class Engine:
 
     def _add(
         self,
-        shape: int,
         touched: dict[str, Any],
         seen: dict[str, Any],
         centre: Sequence[float],
@@ -210,9 +210,9 @@ class Engine:
         solid: bool,
     ) -> int:
         p, client = self._p, self._client
-        collision = p.createCollisionShape(shape, **touched, physicsClientId=client) if solid else -1
+        collision = p.createCollisionShape(**touched, physicsClientId=client) if solid else -1
         rgba = [*(c / 255 for c in color), 1]
-        visual = p.createVisualShape(shape, **seen, rgbaColor=rgba, physicsClientId=client)
+        visual = p.createVisualShape(**seen, rgbaColor=rgba, physicsClientId=client)
         turn = p.getQuaternionFromEuler([0, 0, yaw])
         return int(p.createMultiBody(0, collision, visual, list(centre), turn, physicsClientId=client))
 
