@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import tempfile
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, TypeVar, cast
@@ -23,7 +24,7 @@ from rich.progress import (
 
 from benchmarks.dask_runs import completed
 from benchmarks.engines import Engine, running
-from benchmarks.orphans import end_with
+from benchmarks.orphans import deaf_to_ctrl_c, end_with
 from estimators.errors import GtEnvError
 
 RETURNS: Final = {"loky": "generator_unordered", "ray": "list"}
@@ -156,7 +157,9 @@ def _outcomes(call: Callable[[int], Any], order: Sequence[int], engine: Engine) 
     outcomes: dict[int, Any] = {}
     parallel = Parallel(batch_size=1, pre_dispatch="n_jobs", return_as=RETURNS[engine.name])
     try:
-        for i, outcome in parallel(call(i) for i in order):
+        with deaf_to_ctrl_c() if engine.name == "loky" else nullcontext():  # joblib's processes start here
+            done = parallel(call(i) for i in order)
+        for i, outcome in done:
             outcomes[i] = outcome
     except Exception as error:
         left = [i for i in order if i not in outcomes]

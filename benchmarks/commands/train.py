@@ -140,6 +140,7 @@ def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
         TimeRemainingColumn(),
         console=console,
         transient=True,
+        disable=not console.is_terminal,  # a file would get an empty line
     )
     with bar:
         shown = bar.add_task("", total=run.settings.steps, name=f"{run.task} by {run.algo}, seed {run.seed}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from functools import partial
+from multiprocessing import forkserver
 from pathlib import Path
 from typing import Any, Final
 
@@ -19,6 +20,7 @@ from stable_baselines3.common.env_util import make_vec_env
 from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
 from stable_baselines3.common.vec_env import DummyVecEnv, SubprocVecEnv, VecEnv, VecNormalize
 
+from benchmarks.orphans import deaf_to_ctrl_c
 from benchmarks.output import staged
 from benchmarks.training.folder import BUFFER, EVALUATIONS, NORMALIZER, POLICY, Run
 from benchmarks.training.surroundings import training_env
@@ -211,12 +213,15 @@ def learning_curve(folder: Path) -> dict[str, NDArray[Any]] | None:
 def _environments(run: Run, count: int, seed: int, jobs: int) -> VecEnv:
     make: Callable[[], gym.Env[Any, Any]] = partial(training_env, run.task, run.config, run.settings)
     side_by_side = jobs > 1 and count > 1
+    if side_by_side:
+        with deaf_to_ctrl_c():
+            forkserver.ensure_running()  # its children, too, are deaf
     return make_vec_env(
         make,
         n_envs=count,
         seed=seed,
         vec_env_cls=SubprocVecEnv if side_by_side else DummyVecEnv,
-        vec_env_kwargs={"start_method": "spawn"} if side_by_side else None,
+        vec_env_kwargs={"start_method": "forkserver"} if side_by_side else None,
         monitor_kwargs={"info_keywords": ("is_success",)},
     )
 

@@ -1,6 +1,7 @@
 """Tasks that other processes can import by name."""
 
 import os
+import signal
 import time
 from pathlib import Path
 
@@ -25,3 +26,7 @@ def misbehave(task, on_step):
         Path(os.environ["TELL"], str(os.getpid())).touch()
         time.sleep(60)
     return task
+
+
+def ignores_ctrl_c(_task, _on_step):
+    return signal.getsignal(signal.SIGINT) is signal.SIG_IGN

@@ -13,7 +13,7 @@ from rich.console import Console
 from benchmarks.parallel import StepCounter, SweepError, run_side_by_side
 
 sys.path.insert(0, str(Path(__file__).parent))  # joblib's processes get it from here
-from sweep_tasks import draw, misbehave
+from sweep_tasks import draw, ignores_ctrl_c, misbehave
 
 
 def sweep(function, tasks, jobs=2, **options):
@@ -63,6 +63,14 @@ def test_where_the_counters_cannot_be_reached_steps_are_not_counted(tmp_path):
     StepCounter(tmp_path / "elsewhere", 0)()
 
     assert not (tmp_path / "elsewhere").exists()
+
+
+def test_ctrl_c_is_answered_by_the_process_that_hands_out_the_work_and_by_no_other():
+    before = signal.getsignal(signal.SIGINT)
+
+    assert sweep(ignores_ctrl_c, range(4)) == [True] * 4
+    assert signal.getsignal(signal.SIGINT) is before
+    assert sweep(ignores_ctrl_c, range(2), jobs=1) == [before is signal.SIG_IGN] * 2
 
 
 SWEEP = """
