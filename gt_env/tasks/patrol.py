@@ -71,7 +71,12 @@ class Patrol(Task):
         if len(config.task.waypoints) == 1:
             raise ConfigError(f"task.waypoints = {list(config.task.waypoints)}: must be none or at least two")
         if config.task.waypoints:
-            check_points(config.task.waypoints, config, config.room.in_station_frame(), "task.waypoints")
+            self._configured(config.room.in_station_frame())
+        elif config.task.min_distance <= 2 * config.task.goal_radius:
+            raise ConfigError(
+                f"task.min_distance = {config.task.min_distance}: must be above {2 * config.task.goal_radius:g} m, "
+                f"twice task.goal_radius, or standing still visits way-points"
+            )
 
     @property
     def goal(self) -> Array:
@@ -86,12 +91,23 @@ class Patrol(Task):
         pose = start or sample_pose(rng, config, room)
         here = np.array([pose.x, pose.y])
         if self.settings.waypoints:
-            self._waypoints = check_points(self.settings.waypoints, config, room, "task.waypoints")
+            self._waypoints = self._configured(room)
         else:
             self._waypoints = self._sampled(rng, room, here)
         self._referee = self.referee()
         self._referee.see(here)
         return pose
+
+    def _configured(self, room: Room) -> Array:
+        points = check_points(self.settings.waypoints, self._config, room, "task.waypoints")
+        least = 2 * self.settings.goal_radius
+        for one, following in zip(points, np.roll(points, -1, axis=0), strict=True):
+            if np.hypot(*(following - one)) <= least:
+                raise ConfigError(
+                    f"task.waypoints = {points.tolist()}: {following.tolist()} must be more than {least:g} m, twice "
+                    f"task.goal_radius, from {one.tolist()} before it, or standing still visits both"
+                )
+        return points
 
     def _sampled(self, rng: np.random.Generator, room: Room, here: Array) -> Array:
         points: list[Array] = []

@@ -213,6 +213,8 @@ def test_a_goal_outside_the_room_is_refused(goal):
     [
         (Patrol, "waypoints", ((0.0, 1.0), (0.0, 9.0))),
         (Patrol, "waypoints", ((0.0, 1.0),)),
+        (Patrol, "waypoints", ((0.0, 1.0), (0.0, 1.15))),
+        (Patrol, "waypoints", ((0.0, 1.0), (1.0, 1.0), (0.1, 1.1))),  # the last comes before the first
         (FollowPath, "path", ((0.0, 1.0), (0.0, 9.0))),
         (FollowPath, "path", ((0.0, 1.0), (0.0, 1.0))),
         (FollowPath, "path", ((0.0, 1.0),)),
@@ -221,6 +223,13 @@ def test_a_goal_outside_the_room_is_refused(goal):
 def test_configured_points_that_cannot_be_are_refused(task_type, key, value):
     with pytest.raises(ConfigError, match=rf"task\.{key}"):
         task_type(load_config({"task": {key: value}}, default="tasks"))
+
+
+def test_drawn_way_points_have_to_lie_apart():
+    config = load_config({"task": {"min_distance": 0.2}}, default="tasks")
+    with pytest.raises(ConfigError, match=r"task\.min_distance = 0\.2: must be above 0\.2 m"):
+        Patrol(config)
+    begun(Reach, config=config)
 
 
 @pytest.mark.parametrize("task_type", [FollowPath, Patrol])

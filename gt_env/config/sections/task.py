@@ -70,7 +70,7 @@ class TaskConfig:
             come to its own verdict.
         corridor: A path is lost at this distance beside it [m].
         path: Way-points of the path to follow [m], straight lines between them; none for sampled paths.
-        waypoints: To patrol, in order [m]; none for sampled ones.
+        waypoints: To patrol, in order, each more than twice `goal_radius` from the one before [m]; none for sampled.
         waypoint_count: How many are sampled.
         reward: Weights.
         randomize: What differs between episodes.
