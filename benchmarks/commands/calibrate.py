@@ -19,9 +19,9 @@ from benchmarks.commands.options import (
     SetOption,
     assumed,
     require_report_extra,
+    set_values,
 )
 from benchmarks.output import check_writable, staged
-from gt_env.config import parse_override
 
 CALIBRATION_FILE = "calibration.toml"
 
@@ -47,7 +47,7 @@ def calibrate(
     if not no_figures:
         require_report_extra()
     law = LawOptions(bearing_min_deg=bearing_min_deg, bearing_increment_deg=bearing_increment_deg, rate=rate)
-    values = dict(parse_override(text) for text in overrides or ())
+    values = set_values(overrides)
     source, believed = open_source(recording, law, config, values)
     check_writable(out)
     run = calibrate_recording(source, believed)

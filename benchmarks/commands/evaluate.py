@@ -18,12 +18,12 @@ from benchmarks.commands.options import (
     SeedOption,
     SetOption,
     require_report_extra,
+    set_values,
 )
 from benchmarks.engines import Engine
 from benchmarks.output import check_writable, staged
 from benchmarks.policies.named import SCRIPTED
 from benchmarks.policies.surroundings import ESTIMATES, TASKS
-from gt_env.config import parse_override
 
 QUICK_EPISODES = 10
 """Of each policy in a quick evaluation."""
@@ -81,7 +81,7 @@ def evaluate(
         candidates(policies),
         task,
         config,
-        overrides=dict(parse_override(text) for text in overrides or ()),
+        overrides=set_values(overrides),
         estimate=estimate,
         seed=seed,
         episodes=count,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -14,6 +14,7 @@ from benchmarks.recording.recording import Recording
 from estimators.errors import ConfigError, MissingExtraError
 from estimators.protocol import METHODS
 from gt_env.config import EnvConfig, believing, load_config, parse_override
+from gt_env.config.loading import DEFAULT_PRESET
 
 ConfigOption = Annotated[
     str, typer.Option("--config", metavar="NAME_OR_FILE", help="A preset's name or a TOML file.")
@@ -71,11 +72,16 @@ DataConfigOption = Annotated[
 ]
 
 
-def configuration(config: str, overrides: list[str] | None, calibration: Path | None = None) -> EnvConfig:
-    """The configuration that `--config`, `--set` and `--calibration` ask for."""
-    return calibrated(
-        load_config(config, dict(parse_override(text) for text in overrides or ())), calibration
-    )
+def set_values(overrides: list[str] | None) -> dict[str, Any]:
+    """What `--set` asks for, value by key."""
+    return dict(parse_override(text) for text in overrides or ())
+
+
+def configuration(
+    config: str, overrides: list[str] | None, calibration: Path | None = None, default: str = DEFAULT_PRESET
+) -> EnvConfig:
+    """The configuration that `--config`, `--set` and `--calibration` ask for; a file lies over the default preset."""
+    return calibrated(load_config(config, set_values(overrides), default), calibration)
 
 
 def calibrated(config: EnvConfig, calibration: Path | None) -> EnvConfig:

@@ -26,6 +26,7 @@ from benchmarks.commands.options import (
     calibrated,
     require_one_of,
     require_report_extra,
+    set_values,
 )
 from benchmarks.hindsight import WATCHED
 from benchmarks.output import check_writable, staged
@@ -37,7 +38,7 @@ from benchmarks.replay import Replay
 from benchmarks.replay import replay as replay_recording
 from estimators.calibration import DEG
 from estimators.messages import LaserScan, TargetSighting
-from gt_env.config import EnvConfig, parse_override
+from gt_env.config import EnvConfig
 
 Numbers = list[float | None]
 
@@ -65,7 +66,7 @@ def replay(
     options = LawOptions(
         bearing_min_deg=bearing_min_deg, bearing_increment_deg=bearing_increment_deg, rate=rate
     )
-    values = dict(parse_override(text) for text in overrides or ())
+    values = set_values(overrides)
     recording, believed = open_source(file, options, config, values)
     believed = calibrated(believed, calibration).believed()
     check_writable(out)

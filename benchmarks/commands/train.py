@@ -86,7 +86,7 @@ def train(
     from benchmarks.report.setup import versions
 
     settings = load_settings(settings_file or default, {"steps": steps, "estimate": estimate})
-    world = configuration(config, overrides)
+    world = configuration(config, overrides, default="tasks")
     setup = {"command": shlex.join(["gt-env", *sys.argv[1:]]), "versions": versions()}
     runs = [
         _resumed(place, task, algo, steps)
@@ -129,7 +129,11 @@ def _resumed(folder: Path, task: str, algo: str, steps: int | None) -> Run:
 def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
     from benchmarks.training.surroundings import training_env
 
-    training_env(run.task, run.config, run.settings).close()  # what is wrong with the set-up is said here
+    env = training_env(run.task, run.config, run.settings)
+    try:
+        env.reset(seed=run.seed)  # what is wrong with the set-up is said before anything is written
+    finally:
+        env.close()
     run.write(folder)
     wall, cpu = clock(), process_time()
     console = Console(stderr=True, emoji=False)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from benchmarks.evaluation.report import Findings, describe, tables
 from benchmarks.figures.policies import learning_figure, ways_figure
 from benchmarks.figures.style import paper, save_png
+from benchmarks.training.curves import learning_curve
 
 CAPTIONS = {
     "ways": "True ways over the map, the same episodes for all policies.",
@@ -59,14 +60,10 @@ def _figures(found: Findings) -> dict[str, Figure]:
 
 def _curves(found: Findings) -> dict[str, list[dict[str, NDArray[Any]]]]:
     """Learning curves by what the trainings have in common, or by name where one is alone."""
-    if not found.groups:
-        return {}
-    from benchmarks.training import sb3
-
     files = {c.name: c.file for c in found.plan.candidates}
-    curves = {}
+    curves: dict[str, list[dict[str, NDArray[Any]]]] = {}
     for kind, names in found.groups.items():
-        read = [sb3.learning_curve(file.parent) for name in names if (file := files[name])]
+        read = [learning_curve(file.parent) for name in names if (file := files[name])]
         there = [curve for curve in read if curve is not None and len(curve["steps"]) > 1]
         if there:
             curves[kind if len(names) > 1 else names[0]] = there

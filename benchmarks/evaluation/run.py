@@ -89,7 +89,11 @@ def plan_evaluation(
         episodes=episodes,
     )
     for candidate in found:  # what does not fit is said before anything is driven
-        meet(candidate, chosen, settled, estimate)[0].close()
+        env, _ = meet(candidate, chosen, settled, estimate)
+        try:
+            env.reset(seed=plan.seeds[0])
+        finally:
+            env.close()
     return plan
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from functools import partial
+from importlib.util import find_spec
 from multiprocessing import forkserver
 from pathlib import Path
 from typing import Any, Final
@@ -80,9 +81,8 @@ class _Curve(EvalCallback):
             self.best_mean_reward = float(past["results"].mean(axis=1).max())
 
     def _init_callback(self) -> None:
-        with (
-            warnings.catch_warnings()
-        ):  # one environment is evaluated in this process, wherever many are trained in
+        with warnings.catch_warnings():
+            # One environment is evaluated in this process, wherever many are trained in.
             warnings.filterwarnings("ignore", message="Training and eval env are not of the same type")
             super()._init_callback()
 
@@ -196,20 +196,6 @@ def load(path: Path) -> Any:
     raise ConfigError(f"{path}: not a policy of stable-baselines3: {reason}") from None
 
 
-def learning_curve(folder: Path) -> dict[str, NDArray[Any]] | None:
-    """Steps (E,), mean return (E,) and success rate (E,) of a training's evaluations, if there are any."""
-    path = folder / EVALUATIONS
-    if not path.is_file():
-        return None
-    seen = np.load(path)
-    successes = seen["successes"] if "successes" in seen else np.full(seen["results"].shape, np.nan)
-    return {
-        "steps": seen["timesteps"],
-        "return": seen["results"].mean(axis=1),
-        "success": successes.mean(axis=1),
-    }
-
-
 def _environments(run: Run, count: int, seed: int, jobs: int) -> VecEnv:
     make: Callable[[], gym.Env[Any, Any]] = partial(training_env, run.task, run.config, run.settings)
     side_by_side = jobs > 1 and count > 1
@@ -240,7 +226,7 @@ def _model(run: Run, folder: Path, envs: VecEnv, resume: bool) -> BaseAlgorithm:
         return model
     policy = "MultiInputPolicy" if isinstance(envs.observation_space, gym.spaces.Dict) else "MlpPolicy"
     arguments = dict(run.settings.algorithm)
-    log = str(folder / "tensorboard") if _has_tensorboard() else None
+    log = str(folder / "tensorboard") if find_spec("tensorboard") else None
     try:
         return ALGORITHMS[run.algo](
             policy,
@@ -253,9 +239,3 @@ def _model(run: Run, folder: Path, envs: VecEnv, resume: bool) -> BaseAlgorithm:
         )
     except (TypeError, AssertionError, ValueError) as error:
         raise ConfigError(f"[algorithm] or [policy] of --algo {run.algo}: {error}") from None
-
-
-def _has_tensorboard() -> bool:
-    from importlib.util import find_spec
-
-    return find_spec("tensorboard") is not None

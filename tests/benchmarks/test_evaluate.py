@@ -181,6 +181,7 @@ def test_a_class_of_one_s_own_is_judged(name, tmp_path, monkeypatch):
         (["polar", "--task", "fly"], r"--task fly.*reach"),
         (["polar", "--estimate", "guess"], r"guess.*fused"),
         (["polar", "--set", "task.margin=-1.0"], r"task\.margin"),
+        (["polar", "--set", "task.margin=5.0"], r"^task\.margin = 5\.0.*no free place"),
     ],
 )
 def test_what_cannot_be_judged_is_refused_before_anything_is_driven(asked, said, tmp_path):

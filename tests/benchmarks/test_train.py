@@ -10,9 +10,9 @@ from typer.testing import CliRunner
 from benchmarks.cli import app
 from benchmarks.commands import train
 from benchmarks.evaluation.candidates import candidates, meet
-from benchmarks.policies.surroundings import TASKS
+from benchmarks.training.curves import learning_curve
 from benchmarks.training.folder import BEST, BUFFER, NORMALIZER, POLICY, Run, read_run
-from benchmarks.training.settings import ALGORITHMS, load_settings, make_settings, shipped
+from benchmarks.training.settings import make_settings
 from estimators import ConfigError
 from gt_env import load_config
 
@@ -60,7 +60,7 @@ def test_a_training_leaves_all_that_is_needed_to_go_on(algo, sb3, tmp_path):
 
     more = sb3.train(tiny(algo, 128), tmp_path, resume=True, jobs=1, progress=seen.append)
     then = weights(tmp_path / POLICY, sb3)
-    curve = sb3.learning_curve(tmp_path)
+    curve = learning_curve(tmp_path)
     assert more >= 128
     assert min(seen[seen.index(done) + 1 :]) > done  # it did not begin anew
     assert any((first[k] != then[k]).any() for k in first)
@@ -176,20 +176,6 @@ def test_a_policy_whose_spaces_do_not_match_is_refused_with_both(sb3, tmp_path):
         assert "\n" not in str(refused.value)
 
 
-@pytest.mark.parametrize("task", TASKS)
-def test_shipped_hyper_parameters_can_be_read(task):
-    there = 0
-    for algo in ALGORITHMS:
-        try:
-            path = shipped(task, algo)
-        except ConfigError:
-            continue
-        settings, there = load_settings(path, {"steps": 7}), there + 1
-        assert settings.steps == 7
-        assert settings.estimate in ("surrogate", "lrf", "fused")
-    assert there
-
-
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
@@ -210,24 +196,31 @@ def test_what_cannot_be_trained_is_refused_in_one_line(asked, said, tmp_path):
     assert not out.exists()
 
 
-@pytest.mark.parametrize(
-    ("values", "said"),
-    [
-        ({"steps": 0}, "steps"),
-        ({"steps": 10, "stpes": 3}, "stpes.*there are steps"),
-        ({"steps": 10, "algorithm": 3}, "algorithm"),
-    ],
-)
-def test_settings_that_cannot_be_are_refused(values, said):
-    with pytest.raises(ConfigError, match=said):
-        make_settings(values, "file")
-
-
 def test_an_argument_that_the_algorithm_does_not_know_is_said(sb3, tmp_path):
     settings = make_settings({"steps": 10, "estimate": "lrf", "algorithm": {"speed": 3}}, "file")
     run = Run(task="reach", algo="ppo", seed=0, settings=settings, config=CONFIG, setup={})
     with pytest.raises(ConfigError, match="speed"):
         sb3.train(run, tmp_path, resume=False, jobs=1, progress=lambda n: None)
+
+
+def test_a_task_without_a_free_place_leaves_nothing(sb3, tmp_path):
+    out = tmp_path / "out"
+    done = CliRunner().invoke(app, ["train", "--set", "task.margin=5.0", "--out", str(out)])
+
+    assert re.search(r"^task\.margin = 5\.0.*no free place", str(done.exception))
+    assert not out.exists()
+
+
+def test_a_file_without_a_preset_lies_over_that_of_the_tasks(sb3, tmp_path, monkeypatch):
+    (tmp_path / "own.toml").write_text("[lrf]\nnoise_sigma = 0.02\n")
+    monkeypatch.setattr(train, "_train", lambda run, *_: runs.append(run))
+    runs = []
+    done = CliRunner().invoke(
+        app, ["train", "--config", str(tmp_path / "own.toml"), "--out", str(tmp_path / "out")]
+    )
+
+    assert done.exit_code == 0, done.exception
+    assert runs[0].config == load_config({"lrf": {"noise_sigma": 0.02}}, default="tasks")
 
 
 def test_a_second_training_does_not_overwrite_the_first(sb3, tmp_path):
