@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf, isinf
-from typing import Any
+from typing import Any, Final
 
 from benchmarks.report.scores import DEGREES, MM, times
 from benchmarks.report.tables import NONE, Table, number
@@ -15,6 +15,9 @@ NOTE = (
     "what that of an honest covariance lies 998 times in 1000. Harder drives and other rooms have targets too "
     "(--stress, --rooms); a quick run has too few samples to judge by."
 )
+
+EXACT: Final = 15
+"""Decimals that a double has."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -27,7 +30,7 @@ class Goal:
         unit: Of the numbers; `""` for none.
         asked: Least and largest for each number.
         reached: The numbers; None for one that could not be found.
-        decimals: Of the table.
+        decimals: Of the table, at least.
     """
 
     what: str
@@ -40,8 +43,21 @@ class Goal:
     @property
     def met(self) -> bool:
         """Whether all of them do."""
+        return all(self._between())
+
+    @property
+    def shown_decimals(self) -> int:
+        """As many as it takes to see which numbers miss their bounds: 1.43 where 1.4 is the most."""
+        finer = range(self.decimals, EXACT)
+        return next((n for n in finer if self._between(n) == self._between()), self.decimals)
+
+    def _between(self, decimals: int = EXACT) -> list[bool]:
+        """For each number, rounded like its bounds, whether it lies between them."""
         pairs = zip(self.asked, self.reached, strict=True)
-        return all(value is not None and low <= value <= high for (low, high), value in pairs)
+        return [
+            value is not None and round(low, decimals) <= round(value, decimals) <= round(high, decimals)
+            for (low, high), value in pairs
+        ]
 
 
 def at_most(what: str, method: str, unit: str, most: float, reached: float | None, decimals: int) -> Goal:
@@ -101,9 +117,8 @@ def goals_json(goals: Sequence[Goal]) -> list[dict[str, Any]]:
 
 
 def _asked(goal: Goal) -> str:
-    return "; ".join(_bounds(low, high, goal.decimals) for low, high in dict.fromkeys(goal.asked)) + _unit(
-        goal
-    )
+    bounds = (_bounds(low, high, goal.shown_decimals) for low, high in dict.fromkeys(goal.asked))
+    return "; ".join(bounds) + _unit(goal)
 
 
 def _bounds(low: float, high: float, decimals: int) -> str:
@@ -118,8 +133,9 @@ def _plain(value: float) -> str:
 
 
 def _reached(goal: Goal) -> str:
-    known = any(value is not None for value in goal.reached)
-    return "; ".join(number(value, goal.decimals) for value in goal.reached) + _unit(goal) if known else NONE
+    if all(value is None for value in goal.reached):
+        return NONE
+    return "; ".join(number(value, goal.shown_decimals) for value in goal.reached) + _unit(goal)
 
 
 def _unit(goal: Goal) -> str:

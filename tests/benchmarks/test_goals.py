@@ -81,3 +81,18 @@ def test_a_goal_is_met_within_its_bounds_and_never_by_nothing(asked, reached, me
     assert table.rows[0][-1] == ("yes" if met else "no")
     assert table.title.startswith(f"Targets: {int(met)} of 1")
     json.dumps(goals_json([goal]), allow_nan=False)
+
+
+@pytest.mark.parametrize(
+    ("asked", "reached", "shown"),
+    [
+        ((-float("inf"), 1.4), 1.38, ("≤ 1.4 mm", "1.4 mm")),
+        ((-float("inf"), 1.4), 1.404, ("≤ 1.4 mm", "1.404 mm")),
+        ((0.2, 11.18), 11.23, ("0.20 to 11.18 mm", "11.23 mm")),
+        ((0.2, 11.2), 30.06, ("0.2 to 11.2 mm", "30.1 mm")),
+    ],
+)
+def test_a_miss_looks_like_one_however_small(asked, reached, shown):
+    goal = Goal(what="it", method="fused", unit="mm", asked=(asked,), reached=(reached,), decimals=1)
+
+    assert goal_table([goal]).rows[0][2:4] == shown
