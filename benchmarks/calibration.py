@@ -106,7 +106,7 @@ def quantity_table(run: CalibrationRun) -> Table:
     """One row per quantity; what was simulated beside it, where that is known."""
     head = ["quantity", "unit", "believed", "found", "std error"]
     if run.true is not None:
-        head += ["simulated", "error / std error"]
+        head += ["true", "error / std"]
     rows = []
     for i, quantity in enumerate(QUANTITIES):
         unit, factor = SHOWN[quantity.unit]

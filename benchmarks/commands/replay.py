@@ -9,8 +9,6 @@ from typing import Annotated, Any
 
 import typer
 from rich.console import Console
-from rich.markup import escape
-from rich.table import Table
 
 from benchmarks import metrics
 from benchmarks.commands.options import (
@@ -137,19 +135,27 @@ def _write(folder: Path, recording: Recording, result: Replay, report: dict[str,
 
 
 def _print(report: dict[str, Any], remarks: list[str], out: Path) -> None:
+    from benchmarks.report.tables import Table
+    from benchmarks.report.terminal import rich_table
+
     setup, gt, errors = report["setup"], report["gt"], report["gt_vs_true"]
     counts = ", ".join(f"{n} {kind}" for kind, n in report["measurements"].items() if n)
-    table = Table(title=escape(f"{Path(setup['file']).name}: {counts}"), title_justify="left")
-    table.add_column(f"method {setup['method']}")
-    for name in ("x", "y", "yaw"):
-        table.add_column(name, justify="right")
-    table.add_row(escape("gt, mean [m, m, deg]"), *_cells(gt["mean"], (4, 4, 2)))
-    table.add_row(escape("gt, standard deviation [mm, mm, deg]"), *_cells(_to_mm(gt["std"]), (1, 1, 2)))
+    rows = [
+        ("gt, mean [m, m, deg]", *_cells(gt["mean"], (4, 4, 2))),
+        ("gt, standard deviation [mm, mm, deg]", *_cells(_to_mm(gt["std"]), (1, 1, 2))),
+    ]
     if errors is not None:
-        table.add_row(escape("gt vs true, MAE [mm, mm, deg]"), *_cells(errors["mae"], (1, 1, 2)))
-        table.add_row(escape("gt vs true, largest [mm, mm, deg]"), *_cells(errors["max"], (1, 1, 2)))
+        rows += [
+            ("gt vs true, MAE [mm, mm, deg]", *_cells(errors["mae"], (1, 1, 2))),
+            ("gt vs true, largest [mm, mm, deg]", *_cells(errors["max"], (1, 1, 2))),
+        ]
+    table = Table(
+        title=f"{Path(setup['file']).name}: {counts}",
+        head=(f"method {setup['method']}", "x", "y", "yaw"),
+        rows=tuple(rows),
+    )
     console = Console(emoji=False, highlight=False, soft_wrap=True)
-    console.print(table)
+    console.print(rich_table(table))
     line = f"{gt['n']} poses, {100 * gt['valid']:.0f} % valid"
     if errors is not None:
         line += f", RMSE {errors['rmse_xy_mm']:.1f} mm against the true pose"

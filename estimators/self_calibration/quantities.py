@@ -54,7 +54,7 @@ QUANTITIES: Final = (
     Quantity("camera.pan_offset", "rad", 10 * DEG, "camera, pan offset"),
     Quantity("camera.x", "m", 0.2, "camera, x"),
     Quantity("camera.y", "m", 0.2, "camera, y"),
-    Quantity("camera.fov", "rad", 5 * DEG, "camera, vertical field of view"),
+    Quantity("camera.fov", "rad", 5 * DEG, "camera, vertical fov"),
     Quantity("camera.clock_offset", "s", 0.2, "camera, clock offset"),
 )
 """In the order of `Q`."""
