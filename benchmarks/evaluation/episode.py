@@ -35,7 +35,8 @@ class Episode:
         gt_error: Root mean square of the station's position error [m].
         true_path: (N, 2) [m].
         gt_path: (N, 2) [m], NaN where the station had no fix.
-        goal: (K, 2) as first observed [m].
+        places: (K, 2) what was asked for: the goal, all way-points, or the points of the path [m].
+        is_path: Whether the line between them was to be driven.
     """
 
     seed: int
@@ -52,7 +53,8 @@ class Episode:
     gt_error: float
     true_path: Array
     gt_path: Array
-    goal: Array
+    places: Array
+    is_path: bool
 
 
 class Verdict:
@@ -105,7 +107,7 @@ def run_episode(env: gym.Env[Any, Any], policy: Any, seed: int, on_step: Any = N
     base: Any = env.unwrapped
     verdict = Verdict(base.task)
     verdict.see(info["gt"], info["t"])
-    goal = base.task.goal.copy()
+    places = base.task.places.copy()
     infos, actions, terms = [info], [], dict.fromkeys(info["reward_terms"], 0.0)
     state, start, over, reached = None, np.array([True]), False, 0
     while not over:
@@ -123,7 +125,7 @@ def run_episode(env: gym.Env[Any, Any], policy: Any, seed: int, on_step: Any = N
             if info["is_success"] and base.task.ends_on_success:
                 reached = len(actions)
         over = terminated or truncated or bool(reached and verdict.success)
-    return _episode(seed, infos, actions, terms, verdict, goal)
+    return _episode(seed, infos, actions, terms, verdict, (places, base.task.goal_is_path))
 
 
 def _episode(
@@ -132,7 +134,7 @@ def _episode(
     actions: list[Array],
     terms: dict[str, float],
     verdict: Verdict,
-    goal: Array,
+    asked: tuple[Array, bool],
 ) -> Episode:
     last = infos[-1]
     true = np.array([i["true_pose"][:2] for i in infos])
@@ -156,5 +158,6 @@ def _episode(
         gt_error=float(np.sqrt(np.mean(error**2))),
         true_path=true,
         gt_path=np.where(valid[:, None], said, np.nan),
-        goal=goal,
+        places=asked[0],
+        is_path=asked[1],
     )

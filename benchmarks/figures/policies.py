@@ -18,6 +18,8 @@ from estimators.room import Room
 
 FAILED: Final = ESTIMATED[0]
 GOAL: Final = "#16854a"
+PATH: Final = "#c9d6c9"
+START: Final = "#333333"
 SHOWN: Final = 16
 """Episodes drawn per policy."""
 COLUMNS: Final = 2
@@ -25,11 +27,12 @@ COLUMNS: Final = 2
 
 def ways_figure(episodes: Mapping[str, Sequence[Episode]], room: Room, radius: float) -> Figure:
     """A map per policy with its first episodes: blue reached what they should, red did not."""
-    rows = -(-len(episodes) // COLUMNS)
+    columns = min(COLUMNS, len(episodes))
+    rows = -(-len(episodes) // columns)
     low_x, low_y, high_x, high_y = room.bounds
     aspect = (high_y - low_y + 0.5) / (high_x - low_x + 0.5)
-    height = rows * (WIDTH / COLUMNS * aspect + 0.25) + 0.6
-    figure, axes = new_figure(WIDTH, height, rows=rows, columns=COLUMNS, sharex=True, sharey=True)
+    height = rows * (WIDTH / columns * aspect + 0.25) + 0.6
+    figure, axes = new_figure(WIDTH, height, rows=rows, columns=columns, sharex=True, sharey=True)
     for ax, (name, driven) in zip(axes, episodes.items(), strict=False):
         draw_room(ax, room, margin=0.15)
         draw_station(ax, Pose2())
@@ -39,30 +42,40 @@ def ways_figure(episodes: Mapping[str, Sequence[Episode]], room: Room, radius: f
         ax.label_outer()
     for ax in axes[len(episodes) :]:
         ax.set_axis_off()
-    for ax in axes[: len(episodes)][-COLUMNS:]:  # the last of each column, also beside an empty place
+    for ax in axes[: len(episodes)][-columns:]:  # the last of each column, also beside an empty place
         ax.tick_params(labelbottom=True)
         ax.set_xlabel("x [m]")
-    handles = [
-        Line2D([], [], color=REAL, label="true way, success"),
-        Line2D([], [], color=FAILED, label="true way, failure"),
-        Line2D([], [], color="#333333", marker="o", ms=3, ls="none", label="start"),
-        Line2D([], [], color=GOAL, marker="o", mfc="none", ms=6, ls="none", label="goal"),
-        Line2D([], [], color=WALL, marker="^", ms=7, ls="none", label="station"),
-    ]
-    figure.legend(handles=handles, loc="outside upper center", ncols=5)
+    handles = _handles([e for driven in episodes.values() for e in driven[:SHOWN]])
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
     return figure
+
+
+def _handles(shown: Sequence[Episode]) -> list[Line2D]:
+    """A legend of what there is to see."""
+    handles = [
+        (any(e.success for e in shown), Line2D([], [], color=REAL, label="true way, success")),
+        (not all(e.success for e in shown), Line2D([], [], color=FAILED, label="true way, failure")),
+        (True, Line2D([], [], color=START, marker="o", ms=3, ls="none", label="start")),
+        (any(e.is_path for e in shown), Line2D([], [], color=PATH, lw=3.0, label="path")),
+        (
+            not all(e.is_path for e in shown),
+            Line2D([], [], color=GOAL, marker="o", mfc="none", ms=6, ls="none", label="goal"),
+        ),
+        (True, Line2D([], [], color=WALL, marker="^", ms=7, ls="none", label="station")),
+    ]
+    return [handle for there, handle in handles if there]
 
 
 def draw_ways(ax: Axes, episodes: Sequence[Episode], radius: float) -> None:
     """True ways with start and goal; a path to follow is a broad line below."""
     for e in episodes:
-        if len(e.goal) > 4:
-            ax.plot(*e.goal.T, color="#c9d6c9", lw=3.0, zorder=2, solid_capstyle="round")
+        if e.is_path:
+            ax.plot(*e.places.T, color=PATH, lw=3.0, zorder=2, solid_capstyle="round")
     for e in episodes:
         ax.plot(*e.true_path.T, color=REAL if e.success else FAILED, lw=0.8, alpha=0.8, zorder=3)
-        ax.plot(*e.true_path[0], "o", color="#333333", ms=2, zorder=4)
-        if len(e.goal) <= 4:
-            for point in e.goal:
+        ax.plot(*e.true_path[0], "o", color=START, ms=2, zorder=4)
+        if not e.is_path:
+            for point in e.places:
                 angles = np.linspace(0, 2 * np.pi, 25)
                 circle = point + radius * np.column_stack([np.cos(angles), np.sin(angles)])
                 ax.plot(*circle.T, color=GOAL, lw=0.9, zorder=4)

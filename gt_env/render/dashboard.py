@@ -127,8 +127,8 @@ class Dashboard:
         if goal is not None:
             self._map.draw_goal(self._view, inside(frame, _MAP), goal)
         self._draw_map(inside(frame, _MAP), scan, pan, true_pose, estimates, colors)
-        self._draw_close_up(inside(frame, _CLOSE_UP), scan, true_pose, estimates, colors)
-        self._draw_legend(frame, scan is not None, colors)
+        self._draw_close_up(inside(frame, _CLOSE_UP), scan, true_pose, estimates, colors, goal)
+        self._draw_legend(frame, scan is not None, colors, goal)
         self._chart.draw(inside(frame, _CHART), self._history, colors)
         self._sheet.draw(
             inside(frame, _SHEET),
@@ -200,9 +200,12 @@ class Dashboard:
         true_pose: Pose2,
         estimates: Mapping[str, PoseEstimate],
         colors: Mapping[str, Color],
+        goal: Goal | None,
     ) -> None:
         view = MapView.around(true_pose.x, true_pose.y, CLOSE_UP_RADIUS, _inner_size(_CLOSE_UP))
         self._map.draw_room(view, canvas, grid=0.1)
+        if goal is not None:
+            self._map.draw_goal(view, canvas, goal)
         self._map.draw_robot(view, canvas, true_pose)
         for name, color in colors.items():
             view.line(canvas, self._history.trail(name)[-30:], blend(color, 0.5))
@@ -212,9 +215,13 @@ class Dashboard:
             self._map.draw_estimate(view, canvas, estimate, colors[name])
         _caption_below(canvas, "grid 0.1 m, ellipse 95 %")
 
-    def _draw_legend(self, frame: Image, has_scan: bool, colors: Mapping[str, Color]) -> None:
+    def _draw_legend(
+        self, frame: Image, has_scan: bool, colors: Mapping[str, Color], goal: Goal | None
+    ) -> None:
         """Name the colours in the map's title bar, from right to left."""
         entries = [("true", style.TRUE_COLOR), *colors.items()]
+        if goal is not None:
+            entries.insert(0, ("path" if goal.is_path else "goal", style.GOAL_COLOR))
         if has_scan:
             entries.insert(0, ("scan", style.SCAN_COLOR))
         if self._has_zone:

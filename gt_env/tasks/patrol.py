@@ -84,6 +84,11 @@ class Patrol(Task):
         first = self._referee.visited
         return self._waypoints[[first % len(self._waypoints), (first + 1) % len(self._waypoints)]]
 
+    @property
+    def places(self) -> Array:
+        """All way-points (k, 2) [m]."""
+        return self._waypoints
+
     def begin(self, rng: np.random.Generator, room: Room, start: Pose2 | None, goal: Array | None) -> Pose2:
         """Draw start and way-points, each at least `task.min_distance` from the one before it."""
         config = self._config

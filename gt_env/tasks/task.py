@@ -121,6 +121,11 @@ class Task(ABC):
     def goal(self) -> Array:
         """The goal (k, 2) as points [m], as the observation has it."""
 
+    @property
+    def places(self) -> Array:
+        """All that the episode asks for (k, 2) as points [m], of which `goal` may be the next ones."""
+        return self.goal
+
     @abstractmethod
     def begin(self, rng: np.random.Generator, room: Room, start: Pose2 | None, goal: Array | None) -> Pose2:
         """Lay out an episode; returns where the robot starts.

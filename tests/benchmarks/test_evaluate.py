@@ -72,7 +72,7 @@ def test_an_episode_is_measured_up_to_its_success(driven):
     for e in driven["polar"]:
         assert e.success
         assert e.success_gt
-        assert 0.04 < np.hypot(*(e.true_path[-1] - e.goal[0])) <= RADIUS
+        assert 0.04 < np.hypot(*(e.true_path[-1] - e.places[0])) <= RADIUS
         assert len(e.true_path) == round(e.time / 0.1) + 1 == len(e.gt_path)
         assert e.length == pytest.approx(np.hypot(*np.diff(e.true_path, axis=0).T).sum())
         assert e.length >= np.hypot(*(e.true_path[0] - e.true_path[-1]))

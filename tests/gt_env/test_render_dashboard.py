@@ -6,6 +6,7 @@ import pytest
 from estimators import Calibration, LaserScan, Pose2, PoseEstimate, Room
 from gt_env.render import Dashboard
 from gt_env.render.history import History
+from gt_env.render.station_map import Goal
 
 ROOM = Room(vertices=np.array([(-4.0, -0.03), (4.0, -0.03), (4.0, 4.0), (-4.0, 4.0)]))
 NICHE = Room(vertices=np.array([(-1, -0.2), (30, -0.2), (30, 2), (1, 2), (1, 40), (-1, 40)], float))
@@ -155,3 +156,18 @@ def test_history_is_bounded_replaces_the_same_moment_and_starts_anew_when_time_g
     assert np.isnan(history.errors("odometry")).all()
     history.record(0.0, POSE, {})
     assert len(history) == 1
+
+
+@pytest.mark.parametrize("is_path", [False, True])
+def test_a_goal_is_drawn_in_both_maps_and_named(is_path):
+    goal = Goal(points=np.array([(0.4, 1.4), (0.6, 1.6)]), radius=0.1, is_path=is_path)
+    without, shown = (draw(Dashboard(Calibration(room=ROOM)), goal=g).astype(int) for g in (None, goal))
+    changed = np.abs(shown - without).sum(axis=2) > 0
+    panels = {
+        "legend": changed[:36, 427:],
+        "map": changed[40:460, 427:],
+        "close-up": changed[505:705, 427:653],
+    }
+
+    assert all(panel.sum() > 20 for panel in panels.values())
+    assert sum(panel.sum() for panel in panels.values()) == changed.sum()  # and nowhere else

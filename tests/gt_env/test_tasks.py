@@ -97,6 +97,7 @@ def test_way_points_are_visited_in_order_and_without_end():
     task, _ = begun(Patrol, config=config, start=Pose2(x=-1.0, y=2.0))
 
     assert task.goal.tolist() == [[0, 1], [1, 1]]
+    assert task.places.tolist() == [list(p) for p in points]
     assert task.judge(at(1.0, 1.0)).measures["visited"] == 0  # the second before the first counts nothing
     for lap in range(2):
         for i, point in enumerate(points):
