@@ -74,6 +74,12 @@ class CalibrationSlopes:
         """Covariance (n, n) of a state with what the calibration leaves open, from its derivatives (n, q)."""
         return P + slopes @ self.covariance @ slopes.T if self.count else P
 
+    def of_fix_open(self, reading: PositionReading) -> Array:
+        """Covariance (2, 2) of where beams met the target that the calibration leaves open [m^2]."""
+        slopes = self._of_fix(reading) if self.count else np.zeros((2, 0))
+        open_: Array = slopes @ self.covariance @ slopes.T
+        return open_
+
     def _of_fix(self, reading: PositionReading) -> Array:
         d = reading.z - self._lrf
         away = d / np.hypot(*d)

@@ -16,6 +16,7 @@ from estimators.fused.frame_reading import MarkerReading
 from estimators.fused.holonomic import Point
 from estimators.fused.models import motion_model
 from estimators.fused.scan_reading import PositionReading
+from estimators.fused.scan_repeats import RepeatedErrors
 from estimators.fused.timeline import Timeline
 from estimators.fused.track import Track
 from estimators.marker_fit import MarkerFit, MarkerMeasurement
@@ -83,6 +84,7 @@ class FusedEstimator:
         self._curve = calibration.lrf.noise_sigma**2 / calibration.target.radius
         self._camera = calibration.camera
         self._slopes = CalibrationSlopes(calibration)
+        self._repeats = RepeatedErrors(self._scans, self._slopes, calibration.target.radius)
         self._model = motion_model(motion or calibration.motion, calibration)
         self.reset()
 
@@ -100,6 +102,7 @@ class FusedEstimator:
         self._view: MarkerReading | None = None  # the first that showed the side that is seen now
         self._alike, self._spread = 0, np.zeros((2, 2))  # how many did, and their mean covariance
         self._fix_stamp = self._yaw_stamp = -math.inf  # of what was accepted last
+        self._repeats.reset()
         self._missed = self._refused = 0
         self._known: deque[tuple[type, str, float]] = deque(maxlen=REMEMBERED)
 
@@ -141,6 +144,13 @@ class FusedEstimator:
         velocity = self._track.velocity()
         target, covariance, _ = self._target(self._track, scan.stamp)
         fix = self._reading(scan, self._scans.measure(scan, target, covariance + LEAST_DOUBT, velocity))
+        if (
+            fix is not None
+            and self._track.oriented
+            and self._fix is not None
+            and fix.same_beams(self._fix, velocity)
+        ):
+            fix = self._repeats.taken_from(fix, scan, target, covariance)
         innovation = self._track.take(fix) if fix else None
         if fix is not None and innovation is not None and innovation.accepted:
             self._missed, self._fix = 0, fix

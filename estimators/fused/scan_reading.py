@@ -39,6 +39,7 @@ class PositionReading:
         origin: x, y of the LRF [m].
         bearing_increment: Between beams [rad].
         curve: Square of a range's noise over the target's radius [m].
+        repeated: Mean and deviation of what scans repeat along the line of sight [m], where that is known.
     """
 
     fix: PositionFix
@@ -46,6 +47,7 @@ class PositionReading:
     origin: tuple[float, float]
     bearing_increment: float
     curve: float
+    repeated: tuple[float, float] | None = None
 
     @property
     def stamp(self) -> float:
@@ -67,12 +69,29 @@ class PositionReading:
     def _along(self, axes: Array) -> tuple[float, float]:
         """Deviation along the line of sight [m], and what share of it lasts."""
         along = math.sqrt(float(axes[:, 0] @ self.fix.covariance @ axes[:, 0]))
-        return along, min(ALONG * self.curve / along, MOST_ALONG)
+        lasting = ALONG * self.curve if self.repeated is None else self.repeated[1]
+        return along, min(lasting / along, MOST_ALONG)
+
+    @property
+    def axes(self) -> Array:
+        """Axes (2, 2) along and across the line of sight, in columns."""
+        return self._sight()[0]
+
+    @property
+    def spacing(self) -> float:
+        """Between beams at the target [m]."""
+        return self._sight()[1] * self.bearing_increment
+
+    def same_beams(self, before: PositionReading, velocity: Array) -> bool:
+        """Whether a target of a velocity (2,) [m/s] was met by the same beams in an earlier scan."""
+        return bool(self.kept(before, velocity[None], np.zeros(1))[0, 1] > 0)
 
     @property
     def z(self) -> Array:
         """See `Reading`."""
-        return self.fix.position
+        if self.repeated is None:
+            return self.fix.position
+        return self.fix.position - self.repeated[0] * self.axes[:, 0]
 
     @property
     def R(self) -> Array:  # noqa: N802
@@ -106,7 +125,10 @@ class PositionReading:
         axes, distance = self._sight()
         moved = np.abs(velocities @ axes) * abs(self.stamp - before.stamp)
         beams = (moved[:, 0] * 0.1 + moved[:, 1]) / (distance * self.bearing_increment)
-        return np.repeat(np.clip(1 - beams / SAME_BEAMS, 0.0, 1.0)[:, None], 2, axis=1)
+        kept = np.repeat(np.clip(1 - beams / SAME_BEAMS, 0.0, 1.0)[:, None], 2, axis=1)
+        if (self.repeated is None) != (before.repeated is None):
+            kept[:, 0] = 0.0  # of one it is the whole, of the other what is left
+        return kept
 
     def plausible(
         self, before: PositionReading, velocities: Array, turning: Array, log_likelihood: Array

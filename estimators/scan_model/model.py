@@ -15,6 +15,7 @@ from estimators.room import Room
 from estimators.scan_model.acquisition import Candidate, Region, find_candidates
 from estimators.scan_model.beams import EmptyRoom
 from estimators.scan_model.fix import PositionFix, fix_near
+from estimators.scan_model.lasting import lasting_error
 
 GATE = 4.5
 """Size of the region that a prior restricts the search to, in standard deviations."""
@@ -94,6 +95,10 @@ class ScanModel:
             if fix is not None and (best is None or fix.log_odds > best.log_odds):
                 best = fix
         return best
+
+    def lasting(self, scan: LaserScan, axes: Array, mean: Array, covariance: Array) -> tuple[float, float]:
+        """What fixes of a target at rest repeat along the line of sight: see `lasting_error`."""
+        return lasting_error(self._empty_room.beams(scan), axes, mean, covariance, radius=self._radius)
 
     def _region(
         self,
