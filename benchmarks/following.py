@@ -28,6 +28,9 @@ YAW_GAIN: Final = 2.5
 class Follower:
     """Speed and turn rate of the poses themselves, and more or less of both where the robot is not there.
 
+    Whoever sees the robot knows how much of their way its wheels lose in the mean (`robot.slip`), and turns them faster
+    by as much. Robots that slip and others then go the same ways.
+
     The control law is the nonlinear one of Samson and Ait-Abderrahim, Feedback control of a nonholonomic wheeled
     cart in Cartesian space, ICRA 1991; its last gain is a constant, so that it also turns on the spot.
 
@@ -39,6 +42,7 @@ class Follower:
     def __init__(self, poses: Array, config: EnvConfig) -> None:
         self._poses = poses
         self._drive = TwistDrive(config)
+        self._grip = 1 - config.robot.slip
         self._speeds, self._rates = _twists(poses, config.timing.step)
 
     @property
@@ -53,10 +57,9 @@ class Follower:
         yaw = float(wrap_angle(yaw))
         c, s = math.cos(pose[2]), math.sin(pose[2])
         along, across = c * x + s * y, c * y - s * x
-        return self._drive.action(
-            speed * math.cos(yaw) + ALONG_GAIN * along,
-            rate + ACROSS_GAIN * speed * np.sinc(yaw / np.pi) * across + YAW_GAIN * math.sin(yaw),
-        )
+        speed_there = speed * math.cos(yaw) + ALONG_GAIN * along
+        rate_there = rate + ACROSS_GAIN * speed * np.sinc(yaw / np.pi) * across + YAW_GAIN * math.sin(yaw)
+        return self._drive.action(speed_there / self._grip, rate_there / self._grip)
 
 
 def check_followed(name: str, poses: Array, config: EnvConfig) -> None:

@@ -49,6 +49,16 @@ def test_a_robot_that_slips_or_starts_beside_the_path_comes_back_to_it() -> None
     assert off[100:].max() < 0.03
 
 
+@pytest.mark.parametrize("slip", [0.0, 0.05, 0.2])
+def test_what_wheels_lose_in_the_mean_is_driven_for_beforehand(slip: float) -> None:
+    poses = timed_poses("figure-of-eight", CONFIG, speed=0.37)
+    follower = Follower(poses, load_config(CONFIG, {"robot.slip": slip}))
+    usual = Follower(poses, CONFIG)
+    for k in (50, 200):
+        beside = poses[k] + [0.02, -0.01, 0.1]
+        assert (1 - slip) * follower.action(k, beside) == pytest.approx(usual.action(k, beside), rel=1e-5)
+
+
 def test_it_turns_on_the_spot() -> None:
     yaw = np.linspace(0.0, 2.0, 21)
     poses = np.column_stack([np.zeros(21), np.full(21, 2.0), yaw])
