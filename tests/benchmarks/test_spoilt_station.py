@@ -1,10 +1,10 @@
-"""What a calibration is worth: the spoilt station, and a recording of it that `gt-env calibrate` can read."""
+"""The spoilt station, and a recording of it that `gt-env calibrate` can read."""
 
 import numpy as np
 import pytest
 
-from benchmarks.calibration_check import PLANTED, THINNER, driven, planted, save
 from benchmarks.recording import read_recording
+from benchmarks.spoilt_station import PLANTED, THINNER, driven, planted, save
 from estimators.self_calibration.quantities import Q, values_of
 from gt_env.config import load_config
 
