@@ -8,8 +8,9 @@ axle, that of all others the middle of the wheels.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Final, Protocol
 
 import numpy as np
 
@@ -70,6 +71,25 @@ def skid_steer_track(track: float, wheelbase: float) -> float:
     itself drops out.
     """
     return track * (1 + (wheelbase / track) ** 2)
+
+
+USUAL_FRICTION: Final = 0.8
+"""Of rubber on an indoor floor."""
+GRAVITY: Final = 9.81
+"""[m/s^2]."""
+
+
+def skid_steer_drift(track: float, wheelbase: float) -> float:
+    """How far a skid-steered robot's centre of turning moves ahead in a curve, over speed and turn rate [s^2].
+
+    To go along a curve takes a force to its inside, m v omega, which sliding wheels have if they slide outwards. Those
+    of a robot that turns as in `skid_steer_track` slide at omega a rho / b, omega a^2 / b of it along their rims, with
+    a half the wheelbase, b half the track and rho^2 = a^2 + b^2. What they slide to the left in addition turns their
+    friction mu m g by as much as the square of the latter over the cube of the former, so it is rho^3 / (a b mu g)
+    times v omega^2.
+    """
+    a, b = 0.5 * wheelbase, 0.5 * track
+    return math.hypot(a, b) ** 3 / (a * b * USUAL_FRICTION * GRAVITY)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -159,6 +179,14 @@ class Ackermann:
             math.atan2(self.wheelbase * bend, 1 - side * 0.5 * self.track * bend) for side in (1, -1)
         )
         return left, right
+
+    def steered(self, fronts: Sequence[float]) -> float:
+        """The steering angle [rad] that angles of the front left and right wheel [rad] come to."""
+        bends = [
+            math.tan(a) / (self.wheelbase + side * 0.5 * self.track * math.tan(a))
+            for side, a in zip((1, -1), fronts, strict=True)
+        ]
+        return math.atan(0.5 * self.wheelbase * sum(bends))
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -7,6 +7,10 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
+import numpy as np
+
+from gt_env.friction import Weight
+
 State = tuple[tuple[float, float, float], tuple[float, float, float, float]]
 """Position of a body's centre of mass and its quaternion, as the engine gives them."""
 
@@ -51,6 +55,47 @@ class Body:
         dx, dy, _ = self._com
         return x - c * dx + s * dy, y - s * dx - c * dy, yaw
 
+    def weight(self) -> Weight:
+        """Mass, inertia about the vertical and centre of mass, links and all, as it stands."""
+        p = self._p
+        x, y, yaw = self.pose()
+        parts = []
+        for link in range(-1, p.getNumJoints(self.number, physicsClientId=self._client)):
+            info = p.getDynamicsInfo(self.number, link, physicsClientId=self._client)
+            at, turn = (
+                self.state()
+                if link < 0
+                else p.getLinkState(self.number, link, physicsClientId=self._client)[:2]
+            )
+            axes = np.array(p.getMatrixFromQuaternion(turn)).reshape(3, 3)
+            parts.append((info[0], float(axes[2] ** 2 @ info[2]), np.asarray(at)))
+        mass = sum(part[0] for part in parts)
+        centre = sum(part[0] * part[2] for part in parts) / mass
+        inertia = sum(own + m * float(np.sum((at - centre)[:2] ** 2)) for m, own, at in parts)
+        dx, dy, c, s = centre[0] - x, centre[1] - y, math.cos(yaw), math.sin(yaw)
+        place = float(c * dx + s * dy), float(c * dy - s * dx), float(centre[2])
+        return Weight(mass=mass, inertia=inertia, centre=place)
+
+    def velocity(self, yaw: float, place: Sequence[float]) -> tuple[float, float, float]:
+        """Of what is at a place (3,) [m] of the base frame, in that frame, which points to a yaw [rad].
+
+        Returns:
+            vx, vy [m/s], turn rate [rad/s].
+        """
+        (vx, vy, _), (wx, wy, omega) = self._p.getBaseVelocity(self.number, self._client)
+        c, s = math.cos(yaw), math.sin(yaw)
+        dx, dy, dz = (at - own for at, own in zip(place, self._com, strict=True))
+        # It may rock a little on its wheels, which moves what is far above them or below.
+        return (
+            c * vx + s * vy - omega * dy + (c * wy - s * wx) * dz,
+            c * vy - s * vx + omega * dx - (c * wx + s * wy) * dz,
+            omega,
+        )
+
+    def push(self, joint: int, force: Sequence[float], place: Sequence[float]) -> None:
+        """Let a force (3,) [N] act on what a joint carries, at a place (3,) [m] in the room, through the next tick."""
+        self._p.applyExternalForce(self.number, joint, force, place, self._p.WORLD_FRAME, self._client)
+
     def wheel_angles(self) -> list[float]:
         """Angles of the wheels [rad], not wrapped, in the order of their names."""
         states = self._p.getJointStates(self.number, self.joints, physicsClientId=self._client)
@@ -86,6 +131,11 @@ class Body:
             forces=[torque] * len(self._steering),
             physicsClientId=self._client,
         )
+
+    def steering_angles(self) -> list[float]:
+        """Where the steering joints are, left and right [rad]."""
+        states = self._p.getJointStates(self.number, self._steering, physicsClientId=self._client)
+        return [state[0] for state in states]
 
     def may_sleep(self, allowed: bool) -> None:
         """Let the engine stop moving the body once it rests, or wake it up and keep it awake.

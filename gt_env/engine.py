@@ -153,16 +153,12 @@ class Engine:
             p.changeDynamics(
                 number,
                 link,
-                lateralFriction=1.0 if rolls else 0.0,
+                lateralFriction=1.0 if rolls and model.grips else 0.0,
                 linearDamping=0.0,
                 angularDamping=0.0,
                 jointDamping=0.0,
                 physicsClientId=client,
             )
-            if model.spin and link in body.joints:
-                moments = list(p.getDynamicsInfo(number, link, physicsClientId=client)[2])
-                moments[model.axle] = model.spin
-                p.changeDynamics(number, link, localInertiaDiagonal=moments, physicsClientId=client)
             if rolls and model.slide:
                 along = [float(axis != model.axle) for axis in range(3)]
                 p.changeDynamics(number, link, anisotropicFriction=along, physicsClientId=client)

@@ -19,8 +19,6 @@ MARKER_DEPTH = 0.02
 """Depth of the box that a marker is made of [m]; all but its protrusion is inside the cylinder."""
 KNUCKLE_MASS = 0.05
 """Of what turns with a steered wheel, one half of the axle [kg]."""
-ROTOR_SHARE = 3.0
-"""Inertia of a skid-steered wheel with its motor over that of its load at its rim."""
 GUARD_GAP = 0.004
 """How much smaller than the wheel the guard is that touches walls in its place [m]."""
 
@@ -34,20 +32,20 @@ class RobotModel:
         wheels: Names of the joints of driven wheels.
         rollers: Names of the joints of wheels without a motor.
         steering: Names of the steering joints, left and right.
-        spin: Moment of inertia of each driven wheel with its motor about the axle [kg m^2]; 0 for the wheel's own.
         axle: Which axis of a driven wheel's link its axle is, 0 to 2.
         own_inertia: Whether the moments of inertia are those of the shapes, not of the description.
         slide: Whether the wheels slide along their axles, as omnidirectional ones do.
+        grips: Whether the engine is to find the friction of its wheels; else it is `SlidingWheels` that does.
     """
 
     urdf: str
     wheels: tuple[str, ...]
     rollers: tuple[str, ...] = ()
     steering: tuple[str, ...] = ()
-    spin: float = 0.0
     axle: int = 1
     own_inertia: bool = True
     slide: bool = False
+    grips: bool = True
 
 
 def built_in_robot(robot: RobotConfig, target: TargetConfig) -> RobotModel:
@@ -75,21 +73,9 @@ def built_in_robot(robot: RobotConfig, target: TargetConfig) -> RobotModel:
         wheels=tuple(joint_name(w.name) for w in shape.wheels if w.driven),
         rollers=tuple(joint_name(w.name) for w in shape.wheels if not w.driven),
         steering=tuple(joint_name(f"{w.name}_steering") for w in shape.wheels if w.steered),
-        spin=spin_inertia(robot, target),
         slide=robot.model == "omni3",
+        grips=robot.model != "skid_steer",
     )
-
-
-def spin_inertia(robot: RobotConfig, target: TargetConfig) -> float:
-    """Of a wheel with rotor and gear of its motor, as seen from the wheel; 0 for the wheel's own [kg m^2].
-
-    The solver shares a sliding wheel's friction between along and across in the ratio of the masses that it moves
-    either way. Were a skid-steered wheel light, it would have hardly any friction left to drive with, where a real
-    one has the same in all directions.
-    """
-    if robot.model != "skid_steer":
-        return 0.0
-    return motor_inertia(robot.mass + target.mass + 4 * robot.wheel_mass, robot.wheel_radius)
 
 
 def joint_name(part: str) -> str:
@@ -136,11 +122,6 @@ def add_target(link: ET.Element, target: TargetConfig) -> None:
         angle = (angle_deg + target.mount_yaw_deg) * DEG
         place = (x + reach * math.cos(angle), y + reach * math.sin(angle), z)
         add_shape(link, "visual", marker, place, (0, 0, angle), color=color, name=f"marker_{index}")
-
-
-def motor_inertia(mass: float, radius: float) -> float:
-    """Of one of four wheels with its motor, for a robot of a mass [kg m^2]."""
-    return ROTOR_SHARE * 0.25 * mass * radius**2
 
 
 def _wheel(root: ET.Element, wheel: Wheel, robot: RobotConfig) -> None:

@@ -13,7 +13,7 @@ from estimators.errors import ConfigError
 from estimators.poses import Array
 from gt_env.config.sections import RobotConfig, TargetConfig
 from gt_env.config.shape import robot_shape
-from gt_env.robot_model import RobotModel, add_body, add_target, motor_inertia, sphere, target_inertia, vector
+from gt_env.robot_model import RobotModel, add_body, add_target, sphere, target_inertia, vector
 
 TOLERANCE = 0.003
 """How far a wheel may stand from where the configuration's measures put it [m]."""
@@ -55,7 +55,7 @@ def robot_from_urdf(file: Path, robot: RobotConfig, target: TargetConfig) -> Rob
         part = ET.SubElement(links[name], "collision")
         ET.SubElement(part, "origin", xyz=vector(centre))
         ET.SubElement(part, "geometry").append(sphere(robot.wheel_radius))
-    total = _weigh(links) + target.mass
+    _weigh(links)
     _add_base(root, first, robot, target)
     driven = robot.wheel_joints[:2] if robot.model == "ackermann" else robot.wheel_joints
     return RobotModel(
@@ -63,9 +63,9 @@ def robot_from_urdf(file: Path, robot: RobotConfig, target: TargetConfig) -> Rob
         wheels=driven,
         rollers=tuple(w for w in robot.wheel_joints if w not in driven),
         steering=robot.steering_joints,
-        spin=motor_inertia(total, robot.wheel_radius) if robot.model == "skid_steer" else 0.0,
         axle=int(np.abs(_axis(joints[robot.wheel_joints[0]])).argmax()),
         slide=robot.model == "omni3",
+        grips=robot.model != "skid_steer",
         own_inertia=False,
     )
 
@@ -189,9 +189,8 @@ def _axis(joint: ET.Element) -> Array:
     return _numbers(None if axis is None else axis.get("xyz"), (1.0, 0.0, 0.0))
 
 
-def _weigh(links: dict[str, ET.Element]) -> float:
-    """Give every link a mass; returns the sum [kg]."""
-    total = 0.0
+def _weigh(links: dict[str, ET.Element]) -> None:
+    """Give every link that has none a mass."""
     for link in links.values():
         inertial = link.find("inertial")
         if inertial is None:
@@ -199,9 +198,6 @@ def _weigh(links: dict[str, ET.Element]) -> float:
             ET.SubElement(inertial, "mass", value=repr(SPECK))
             moments = dict.fromkeys(("ixx", "iyy", "izz"), repr(SPECK * SPECK))
             ET.SubElement(inertial, "inertia", {**moments, "ixy": "0", "ixz": "0", "iyz": "0"})
-        mass = inertial.find("mass")
-        total += 0.0 if mass is None else float(mass.get("value", "0"))
-    return total
 
 
 def _add_base(root: ET.Element, first: str, robot: RobotConfig, target: TargetConfig) -> None:

@@ -121,3 +121,10 @@ def test_a_constant_twist_moves_along_an_arc():
     assert tuple(moved(start, twist, 2 * math.pi / 0.8)) == pytest.approx(tuple(start))
     tiny = moved(start, np.array([0.3, 0.1, 1e-12]), 1.0)
     assert tuple(tiny) == pytest.approx(tuple(moved(start, np.array([0.3, 0.1, 0.0]), 1.0)))
+
+
+@pytest.mark.parametrize("steering", [-0.5, -0.01, 0.0, 0.2, 0.5])
+def test_front_wheels_tell_how_far_they_are_steered(steering):
+    motion = Ackermann(radius=0.045, track=0.2, wheelbase=0.3)
+
+    assert motion.steered(motion.front_angles(steering)) == pytest.approx(steering, abs=1e-12)
