@@ -121,6 +121,8 @@ class Calibration:
             steered axle, whose wheels never roll quite the same way, `skid` beside it too where it turns, as four
             wheels that cannot be steered make it, `holonomic` in any direction.
         turning_center: How far ahead of its base the point lies about which a `skid` robot turns on the spot.
+        turning_center_sigma: Standard deviation of that.
+        turning_drift: How far it moves ahead in a curve, over speed and turn rate [s^2].
         uncertainty: Covariance (10, 10) of what `self_calibration.quantities` lists, in its order; None where
             all of it is taken to be exact.
     """
@@ -131,4 +133,6 @@ class Calibration:
     target: TargetGeometry = field(default_factory=TargetGeometry)
     motion: Motion = "unicycle"
     turning_center: float = 0.0
+    turning_center_sigma: float = 0.01
+    turning_drift: float = 0.05
     uncertainty: tuple[tuple[float, ...], ...] | None = None

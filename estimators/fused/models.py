@@ -23,7 +23,9 @@ def motion_model(motion: Motion, calibration: Calibration) -> MotionModel:
         case "steered":
             return Steered()
         case "skid":
-            return Skidding(calibration.turning_center)
+            return Skidding(
+                calibration.turning_center, calibration.turning_center_sigma, calibration.turning_drift
+            )
         case "holonomic":
             return Holonomic()
     raise ConfigError(f"motion = {motion!r}: must be one of {', '.join(get_args(Motion))}")

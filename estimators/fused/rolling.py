@@ -101,9 +101,9 @@ class Unicycle:
         return np.stack([v * c - aside * s, v * s + aside * c], axis=1)
 
 
-CRAB: Final = 0.002
+CRAB: Final = 0.0005
 """Angle beside its heading at which a robot with a steered axle drives, standard deviation [rad]: front and rear wheels
-never agree wholly on where the centre of the turn is, and tyres give way."""
+never agree wholly on where the centre of the turn is, and tyres give way. The simulated ones have up to half of it."""
 CRAB_LASTING: Final = 0.3
 """How long it stays what it is [s]: about as long as steering takes."""
 
@@ -124,42 +124,38 @@ class Steered(Unicycle):
         )
 
 
-CENTRE: Final = 0.01, 0.2
-"""How far from where it is believed a skid-steered robot's centre of turning may lie, standard deviation: so much [m]
-and such a share of how far that is ahead of the base, as a robot with much of it is large, and loaded unevenly."""
 CENTRE_WALK: Final = 0.1
-"""How fast it wanders, as the load on the wheels changes, in that standard deviation [1/s^0.5]."""
-AHEAD: Final = 0.05, 0.03
-"""How far it moves ahead in a curve, over speed and turn rate: mean and standard deviation [s^2]. To go along a curve
-takes a force to its inside, which sliding wheels have if they slide outwards. With friction mu and wheels that slide at
-omega rho, omega sigma of it along them, it is rho^3 / (sigma^2 mu g): 0.03 for small robots, 0.1 for large ones."""
-UNEVEN: Final = 0.03
-"""The same for a part that changes all the time, as floor and tyres are not the same everywhere and in every direction
-[s^2]."""
+"""How fast the centre of turning wanders, as the load on the wheels changes, in its standard deviation [1/s^0.5]."""
+GRIP: Final = 0.4
+"""How far the drift of that centre may be from what it is believed to be, relative standard deviation: friction of
+wheels on floors is between 0.5 and 1.1."""
+UNEVEN: Final = 0.1
+"""The same for a part that changes all the time, as floor and tyres are not the same everywhere."""
 UNEVEN_LASTING: Final = 0.2
 """How long that stays what it is [s]."""
-JOLT: Final = 0.001
-"""How far it jumps sideways as its turn rate changes, standard deviation [m per rad/s]: the wheels must first slide as
-the new rate wants it."""
 
 
 class Skidding(Unicycle):
     """A robot that turns about a point ahead of its base or behind it, as four wheels that cannot be steered make it.
 
     Where along the robot they do not slide sideways depends on the load that each wheel carries and on the curve; with
-    the centre of turning c ahead, the base itself goes sideways at -c omega.
+    the centre of turning c ahead, the base itself goes sideways at -c omega. In a curve it moves ahead by the drift d
+    times speed and turn rate, see `estimators.kinematics.skid_steer_drift`.
 
     Args:
         centre: How far ahead of the base it is believed to lie on the spot [m].
+        centre_sigma: Standard deviation of that [m].
+        drift: What the drift is believed to be [s^2].
     """
 
     size = 8 + BIASES
     lasting = (np.inf, np.inf, UNEVEN_LASTING)
     wandering = (CENTRE_WALK, 0.0, 0.0)
 
-    def __init__(self, centre: float = 0.0) -> None:
-        self.centre_sigma = CENTRE[0] + CENTRE[1] * abs(centre)
-        self._means = np.array([centre / self.centre_sigma, AHEAD[0] / AHEAD[1], 0.0])
+    def __init__(self, centre: float = 0.0, centre_sigma: float = 0.01, drift: float = 0.05) -> None:
+        self._means = np.array([centre / centre_sigma, 1 / GRIP, 0.0])
+        self._centre_sigma, self._drift = centre_sigma, drift
+        self._drifts = drift * np.array([GRIP, UNEVEN])[:, None]
 
     def means(self) -> Array:
         """See `Unicycle`."""
@@ -168,17 +164,19 @@ class Skidding(Unicycle):
     def ways(self, v: Array, omega: Array) -> tuple[Array, Array, Array]:
         """See `Unicycle`."""
         rate = np.abs(omega)
-        by = -np.array([AHEAD[1], UNEVEN])[:, None]
         return (
-            np.stack([-self.centre_sigma * omega, *(by * v * omega * rate)]),
-            np.stack([np.zeros_like(v), *(by * omega * rate)]),
-            np.stack([np.full_like(v, -self.centre_sigma), *(by * 2 * v * rate)]),
+            np.stack([-self._centre_sigma * omega, *(-self._drifts * v * omega * rate)]),
+            np.stack([np.zeros_like(v), *(-self._drifts * omega * rate)]),
+            np.stack([np.full_like(v, -self._centre_sigma), *(-self._drifts * 2 * v * rate)]),
         )
 
     def noise(self, states: Array, dt: float, densities: Array) -> Array:
         """See `MotionModel`."""
         Q = super().noise(states, dt, densities)
+        # The speed to the left lags behind the turn rate by the time that friction takes to bring it about: the drift
+        # times the turn rate. What the rate changes by, the robot is beside its way by.
+        lag = self._drift * np.abs(states[:, 4]) * self._aside(states)[2]
         middle = states[:, 2] + 0.5 * dt * states[:, 4]
         left = np.stack([-np.sin(middle), np.cos(middle)], axis=1)
-        Q[:, :2, :2] += (JOLT**2 * dt * densities[:, 1])[:, None, None] * left[:, :, None] * left[:, None, :]
+        Q[:, :2, :2] += (lag**2 * dt * densities[:, 1])[:, None, None] * left[:, :, None] * left[:, None, :]
         return Q

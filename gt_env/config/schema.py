@@ -11,6 +11,7 @@ from pydantic import model_validator
 
 from estimators.calibration import DEG, Calibration, Motion
 from estimators.errors import ConfigError
+from estimators.kinematics import skid_steer_drift
 from estimators.poses import Pose2
 from estimators.room import Room
 from estimators.self_calibration.uncertainty import problems
@@ -96,6 +97,8 @@ class EnvConfig:
             target=self.target.calibration(),
             motion=MOTIONS.get(self.robot.model, "unicycle"),
             turning_center=self.robot.turning_center,
+            turning_center_sigma=self.robot.turning_center_sigma,
+            turning_drift=skid_steer_drift(self.robot.track, self.robot.wheelbase),
             uncertainty=self.uncertainty.covariance(),
         )
 

@@ -4,7 +4,7 @@ import pytest
 from estimators.fused.holonomic import Holonomic, Point
 from estimators.fused.mode_filter import ModeFilter
 from estimators.fused.motion import BIASES, Mode
-from estimators.fused.rolling import AHEAD, Skidding, Steered, Unicycle
+from estimators.fused.rolling import Skidding, Steered, Unicycle
 
 STATES = {
     Unicycle: [[1.0, 2.0, 0.7, 0.4, -1.2, 0.8], [-2.0, 1.0, -3.0, -0.3, 2.0, -1.5]],
@@ -57,8 +57,8 @@ def test_only_motion_along_the_heading_is_noisy_for_a_robot_that_rolls(model):
 
 def test_a_skidding_robot_turns_on_the_spot_about_the_point_that_it_is_told():
     ahead, off = 0.1, 0.02
-    model = Skidding(ahead - off)
-    state = np.array([[0.0, 0.0, 0.3, 0.0, 0.5, off / model.centre_sigma, 0.0, 0.0, *np.zeros(BIASES)]])
+    model = Skidding(ahead - off, centre_sigma=0.02)
+    state = np.array([[0.0, 0.0, 0.3, 0.0, 0.5, off / 0.02, 0.0, 0.0, *np.zeros(BIASES)]])
     centre = ahead * np.array([np.cos(0.3), np.sin(0.3)])
     for _ in range(100):
         state, _ = model.step(state, 0.02)
@@ -73,8 +73,8 @@ def test_a_skidding_robot_turns_on_the_spot_about_the_point_that_it_is_told():
 def test_a_skidding_robot_slides_to_the_outside_of_its_curve(v, omega):
     state = np.array([[0.0, 0.0, 0.0, v, omega, 0.0, 0.0, 0.0, *np.zeros(BIASES)]])
     inside = v * omega  # acceleration to the left
-    _, aside = Skidding().velocities(state)[0]
-    assert aside == pytest.approx(-np.sign(inside) * AHEAD[0] * abs(v) * omega**2)
+    _, aside = Skidding(drift=0.04).velocities(state)[0]
+    assert aside == pytest.approx(-np.sign(inside) * 0.04 * abs(v) * omega**2)
 
 
 @pytest.mark.parametrize("model", [Unicycle(), Steered(), Skidding()])

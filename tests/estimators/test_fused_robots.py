@@ -6,7 +6,7 @@ from scipy.signal import lfilter
 
 from estimators.fused.holonomic import Holonomic
 from estimators.fused.mode_filter import ModeFilter
-from estimators.fused.rolling import AHEAD, CRAB, CRAB_LASTING, Skidding, Steered, Unicycle
+from estimators.fused.rolling import CRAB, CRAB_LASTING, GRIP, Skidding, Steered, Unicycle
 
 DT = 1 / 30
 ANGLES = np.array([False, True])
@@ -69,21 +69,21 @@ def squares(errors, covariances):
 
 
 def test_how_far_a_skidding_robot_slides_in_curves_is_found_out():
-    law = 0.09
+    believed, law = 0.06, 0.1
     poses = driven(lambda v, omega, _: -law * v * omega * np.abs(omega))
-    errors, covariances, state = watched(Skidding(), poses, seed=1, after=240)
+    errors, covariances, state = watched(Skidding(drift=believed), poses, seed=1, after=240)
     rigid, _, _ = watched(Unicycle(), poses, seed=1, after=240)
 
-    assert AHEAD[0] + AHEAD[1] * state[6] == pytest.approx(law, abs=AHEAD[1])
+    assert believed * (1 + GRIP * state[6]) == pytest.approx(law, abs=GRIP * believed)
     assert rms(errors) < 0.9 * rms(rigid)
     assert np.mean(squares(errors, covariances)) < 4.5
 
 
 def test_where_a_skidding_robot_turns_can_be_told_or_found_out():
     centre = -0.15
-    poses = driven(lambda v, omega, _: -centre * omega - AHEAD[0] * v * omega * np.abs(omega))
+    poses = driven(lambda v, omega, _: -centre * omega - 0.05 * v * omega * np.abs(omega))
     for believed in (centre, centre + 0.02):
-        errors, covariances, _ = watched(Skidding(believed), poses, seed=2)
+        errors, covariances, _ = watched(Skidding(believed, centre_sigma=0.02), poses, seed=2)
         assert rms(errors) < 0.005
         assert np.mean(squares(errors, covariances)) < 4.5
 

@@ -40,7 +40,7 @@ def test_the_station_is_as_good_on_robots_with_four_wheels(make):
         for model in ("differential", "skid_steer", "ackermann")
     }
 
-    # A steered robot costs next to nothing; of a skidding one the centre of turning must be found out first.
+    # What four wheels slide beside the way of two costs next to nothing.
     assert max(rmse.values()) < 0.005
     assert rmse["ackermann"] < 1.3 * rmse["differential"]
-    assert rmse["skid_steer"] < 2.0 * rmse["differential"]
+    assert rmse["skid_steer"] < 1.3 * rmse["differential"]

@@ -33,6 +33,7 @@ class RobotConfig:
             what follows from track and wheelbase where all wheels carry the same.
         turning_center: How far ahead of its base a `skid_steer` robot turns on the spot, as measured [m]; what the
             estimators start from.
+        turning_center_sigma: Standard deviation of that [m]; a turn on the spot before the station tells it so well.
         max_steering_deg: [deg].
         steering_rate_deg: How fast the wheels are steered [deg/s].
         wheel_radius: [m].
@@ -67,6 +68,7 @@ class RobotConfig:
     wheelbase: Positive = 0.12
     turning_track: NotNegative = 0.0
     turning_center: Real = 0.0
+    turning_center_sigma: Positive = 0.003
     max_steering_deg: Annotated[float, Field(strict=True, gt=0, le=60)] = 30.0
     steering_rate_deg: Positive = 180.0
     wheel_radius: Positive = 0.045
