@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import base64
-import json
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from benchmarks.evaluation.report import Findings, describe, tables
 from benchmarks.figures.policies import learning_figure, ways_figure
 from benchmarks.figures.style import paper, save_png
+from benchmarks.report.html import write_html
 from benchmarks.training.curves import learning_curve
 
 CAPTIONS = {
@@ -25,26 +23,19 @@ CAPTIONS = {
 
 def write_page(folder: Path, found: Findings) -> None:
     """Write the figures and `report.html`, which holds them. Needs the extra `report`."""
-    pictures = {}
-    for name, figure in _figures(found).items():
-        path = folder / f"{name}.png"
-        save_png(figure, path)
-        pictures[name] = base64.b64encode(path.read_bytes()).decode()
-    environment = Environment(
-        loader=PackageLoader("benchmarks"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
-        lstrip_blocks=True,
-    )  # fmt: skip
-    setup = describe(found)
-    page = environment.get_template("evaluate.html.j2").render(
+    figures = _figures(found)
+    for name, figure in figures.items():
+        save_png(figure, folder / f"{name}.png")
+    write_html(
+        folder,
+        "evaluate",
+        figures,
+        describe(found),
         tables=tables(found),
         kinds={c.name: c.kind for c in found.plan.candidates},
         trainings={c.name: c.run.settings.estimate for c in found.plan.candidates if c.run},
-        setup=setup,
-        config=json.dumps(setup["config"], indent=1),
-        pictures=pictures,
         captions=CAPTIONS,
     )
-    (folder / "report.html").write_text(page, encoding="utf-8")
 
 
 def _figures(found: Findings) -> dict[str, Figure]:

@@ -1,18 +1,15 @@
-"""The report as one self-contained HTML page."""
+"""The report as an HTML page."""
 
 from __future__ import annotations
 
-import base64
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
-
 from benchmarks.published import thesis_average_mae
 from benchmarks.report.gallery.plate import Plate
+from benchmarks.report.html import write_html
 from benchmarks.report.scores import MM, TO_ERROR_UNITS, Scores, scaled, times
 from benchmarks.report.tables import Table, angle, number
 
@@ -42,20 +39,16 @@ class Fact:
 def html_page(
     scores: Scores, tables: Sequence[Table], plates: Sequence[Plate], folder: Path, setup: dict[str, Any]
 ) -> str:
-    """The page with the figures (PNG files in `folder`, named after the plates) embedded."""
-    environment = Environment(
-        loader=PackageLoader("benchmarks"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
-        lstrip_blocks=True,
-    )  # fmt: skip
-    pictures = {p.name: base64.b64encode((folder / f"{p.name}.png").read_bytes()).decode() for p in plates}
-    return environment.get_template("validate.html.j2").render(
+    """Write the page with the figures (PNG files in `folder`, named after the plates); returns its name."""
+    return write_html(
+        folder,
+        "validate",
+        [plate.name for plate in plates],
+        setup,
         facts={method: _facts(scores, method) for method, of in scores.static.items() if of},
         tables=tables,
         sections=SECTIONS,
         plates=plates,
-        pictures=pictures,
-        setup=setup,
-        config=json.dumps(setup["config"], indent=1),
     )
 
 

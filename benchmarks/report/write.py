@@ -74,11 +74,11 @@ def write_page(folder: Path, outcome: Outcome, setup: dict[str, Any], console: C
     """Write the figures and `report.html`; returns the page's name. Needs the extra `report`."""
     from benchmarks.experiments.cameras import camera_scenes
     from benchmarks.experiments.scenes import scenes
-    from benchmarks.figures.style import paper, save_png
     from benchmarks.report.gallery.cameras import camera_plates
     from benchmarks.report.gallery.compared import robot_plates, room_plates, stress_plates
     from benchmarks.report.gallery.further import further_plates
     from benchmarks.report.gallery.thesis import thesis_plates
+    from benchmarks.report.html import draw
     from benchmarks.report.page import html_page
 
     validation, scores = outcome.validation, outcome.scores
@@ -96,11 +96,5 @@ def write_page(folder: Path, outcome: Outcome, setup: dict[str, Any], console: C
         shown += robot_plates(outcome.robots)
     if outcome.cameras is not None:
         shown += camera_plates(outcome.cameras, camera_scenes(config, seed))
-    with console.status("drawing") as status:
-        for plate in shown:
-            status.update(f"drawing {plate.name}")
-            with paper():
-                save_png(plate.draw(), folder / f"{plate.name}.png")
-    page = html_page(scores, outcome.tables(), shown, folder, setup)
-    (folder / "report.html").write_text(page, encoding="utf-8")
-    return "report.html"
+    draw(shown, folder, console)
+    return html_page(scores, outcome.tables(), shown, folder, setup)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -88,30 +86,20 @@ class Result:
 
 def write_page(folder: Path, result: Result, room: Room, setup: Mapping[str, Any], console: Console) -> None:
     """Write the figures and `report.html`. Needs the extra `report`."""
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
-    from benchmarks.figures.style import paper, save_png
+    from benchmarks.report.html import draw, write_html
 
     shown = plates(result, room)
-    with console.status("drawing") as status:
-        for plate in shown:
-            status.update(f"drawing {plate.name}")
-            with paper():
-                save_png(plate.draw(), folder / f"{plate.name}.png")
-    environment = Environment(
-        loader=PackageLoader("benchmarks"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
-        lstrip_blocks=True,
-    )  # fmt: skip
-    page = environment.get_template("score.html.j2").render(
+    draw(shown, folder, console)
+    write_html(
+        folder,
+        "score",
+        [plate.name for plate in shown],
+        setup,
         facts=_facts(result),
         tables=result.tables(),
         problems=problems(result),
         plates=shown,
-        pictures={p.name: base64.b64encode((folder / f"{p.name}.png").read_bytes()).decode() for p in shown},
-        setup=setup,
-        config=json.dumps(setup["config"], indent=1),
     )
-    (folder / "report.html").write_text(page, encoding="utf-8")
 
 
 def plates(result: Result, room: Room) -> list[Plate]:
