@@ -8,7 +8,8 @@ from typing import Any, Final
 import gymnasium as gym
 import numpy as np
 
-from benchmarks.driving import DRIVES, SPEED, actions, script, start_pose
+from benchmarks.drives import DRIVES
+from benchmarks.driving import SPEED, actions, script, start_pose
 from benchmarks.paths import path_script, path_start
 from benchmarks.recording import MessageLog, Recording, RecordingWriter
 from benchmarks.rollout import ARENA

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from rich.console import Console
 
-from benchmarks.driving import DRIVES
+from benchmarks.drives import DRIVES
 from benchmarks.engines import Engine
 from benchmarks.experiments.course import Course, follow
 from benchmarks.experiments.moving import FURTHER, blind_runs, moving_runs

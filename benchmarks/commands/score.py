@@ -19,7 +19,7 @@ from benchmarks.commands.options import (
     SetOption,
     require_report_extra,
 )
-from benchmarks.driving import DRIVES
+from benchmarks.drives import DRIVES
 from benchmarks.output import staged
 from benchmarks.paths import PATHS
 from benchmarks.scoring.live import PATHS_SCORED

@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Final
 
-from benchmarks.driving import DRIVES, SPEED, Segment, actions, ideal_poses, script, start_pose
+from benchmarks.drives import DRIVES
+from benchmarks.driving import SPEED, Segment, actions, ideal_poses, script, start_pose
 from benchmarks.experiments.random_poses import dithered
 from benchmarks.experiments.run import Run
 from benchmarks.paths import ACCELERATION, path_in_room, path_script, path_start

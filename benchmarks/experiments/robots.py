@@ -9,7 +9,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from benchmarks.driving import DRIVES, SPEED, Drive, check_room, ideal_poses, segments_of, start_of
+from benchmarks.drives import DRIVES, Drive
+from benchmarks.driving import SPEED, check_room, ideal_poses, segments_of, start_of
 from benchmarks.experiments.course import Course
 from benchmarks.experiments.moving import EIGHT_PATH
 from benchmarks.paths import ACCELERATION, path_in_room, timed_poses

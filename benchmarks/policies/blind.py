@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.driving import DRIVES, actions, script
+from benchmarks.drives import DRIVES
+from benchmarks.driving import actions, script
 from benchmarks.policies.policy import ScriptedPolicy
 from estimators.poses import Array
 
@@ -38,7 +39,7 @@ class TourPolicy(ScriptedPolicy):
 
     Args:
         env: Whose robot drives.
-        drive: One of `benchmarks.driving.DRIVES`.
+        drive: One of `benchmarks.drives.DRIVES`.
     """
 
     def __init__(self, env: Any, drive: str) -> None:

@@ -9,7 +9,8 @@ from typing import Any, Final
 import gymnasium as gym
 import numpy as np
 
-from benchmarks.driving import DRIVES, ideal_poses, script, start_pose
+from benchmarks.drives import DRIVES
+from benchmarks.driving import ideal_poses, script, start_pose
 from benchmarks.following import Follower, check_followed
 from benchmarks.paths import CALM_SPEED, LONG_DRIVE, PATHS, timed_poses
 from benchmarks.recording.writer import RecordingWriter

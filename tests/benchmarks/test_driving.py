@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from benchmarks.drives import DRIVES
 from benchmarks.driving import (
-    DRIVES,
     SPEED,
     TURN_RATE,
     actions,

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from benchmarks.driving import DRIVES, actions, ideal_poses, script, start_pose
+from benchmarks.drives import DRIVES
+from benchmarks.driving import actions, ideal_poses, script, start_pose
 from benchmarks.experiments.moving import moving_runs
 from benchmarks.experiments.random_poses import drive_runs
 from benchmarks.experiments.run import simulate, standing
