@@ -27,17 +27,12 @@ def robot_problems(robot: RobotConfig, target: TargetConfig) -> Iterator[str]:
             f"robot.height = {robot.height}: must be above robot.ground_clearance = {robot.ground_clearance} and at "
             f"most target.z_min = {target.z_min}, the target stands above the robot's body"
         )
-    yield from _wheels_and_target(robot, target)
+    yield from _wheel_problems(robot)
     yield from _urdf_problems(robot)
 
 
-def _wheels_and_target(robot: RobotConfig, target: TargetConfig) -> Iterator[str]:
-    if robot.model == "skid_steer" and robot.wheelbase <= 2 * robot.wheel_radius:
-        yield (
-            f"robot.wheelbase = {robot.wheelbase}: must be above {2 * robot.wheel_radius:g} m, twice "
-            f"robot.wheel_radius, or front and rear wheels overlap"
-        )
-    if robot.model == "ackermann" and robot.wheelbase <= 2 * robot.wheel_radius:
+def _wheel_problems(robot: RobotConfig) -> Iterator[str]:
+    if robot.model in ("skid_steer", "ackermann") and robot.wheelbase <= 2 * robot.wheel_radius:
         yield (
             f"robot.wheelbase = {robot.wheelbase}: must be above {2 * robot.wheel_radius:g} m, twice "
             f"robot.wheel_radius, or front and rear wheels overlap"
