@@ -152,9 +152,10 @@ def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
             done = _learn(run, folder, resume, jobs, lambda n: bar.update(shown, completed=n))
         except KeyboardInterrupt:
             raise TrainingStoppedError(f"interrupted: {_left_behind(run, folder)}") from None
-    spent = {"seconds": clock() - wall, "cpu_seconds": process_time() - cpu}
-    spent = {key: value + run.setup.get(key, 0.0) for key, value in spent.items()}
-    replace(run, setup={**run.setup, **spent}).write(folder)
+        finally:
+            spent = {"seconds": clock() - wall, "cpu_seconds": process_time() - cpu}
+            spent = {key: value + run.setup.get(key, 0.0) for key, value in spent.items()}
+            replace(run, setup={**run.setup, **spent}).write(folder)
     Console(emoji=False).print(
         f"{best_policy(folder)}: {done} steps in {clock() - wall:.0f} s",
         soft_wrap=True,

@@ -145,13 +145,15 @@ def test_an_interrupt_before_anything_is_learnt_says_so_and_can_begin_anew(
         begun.append(resume)
         raise KeyboardInterrupt
 
-    begun = []
+    begun, spent = [], []
     monkeypatch.setattr(train, "_learn", interrupted)
     asked = ["train", "--task", task, "--algo", algo, "--out", str(tmp_path)]
     for words in (asked, [*asked, "--resume"]):
         done = CliRunner().invoke(app, words)
         assert "nothing was learnt yet" in str(done.exception)
+        spent.append(read_run(tmp_path).setup["cpu_seconds"])
     assert begun == [False, False]
+    assert 0 < spent[0] < spent[1]  # what went before the interrupt counts, too
 
 
 def test_what_was_trained_is_written_down(tmp_path):
