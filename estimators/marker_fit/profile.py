@@ -37,7 +37,7 @@ class Profile:
         band: (n, 3) mean colour of the rows of the markers.
         plain_row: (n, 3) colour of a single one of these rows above the markers, not averaged.
         band_row: (n, 3) likewise of the rows of the markers.
-        rows: How many rows were averaged in `band`.
+        rows: How many rows without noise beside them would make the ratio of `band` and `plain` as noisy.
         cover: Share of these rows that a marker covers in height.
         straightened: Whether columns were interpolated, which blurs them by about a pixel.
     """
@@ -48,7 +48,7 @@ class Profile:
     band: Floats
     plain_row: NDArray[np.generic]
     band_row: NDArray[np.generic]
-    rows: int
+    rows: float
     cover: float
     straightened: bool
 
@@ -117,7 +117,7 @@ class ProfileReader:
                 return None
             parts.append(rgb[top : low_row + 1, first : last + 1])
         above, across, below = (_mean_row(part) for part in parts)
-        n = len(parts[1])
+        rows = 1 / (1 / len(parts[1]) + 1 / (len(parts[0]) + len(parts[2])))
         cover = 1.0
         if math.ceil(center - band - 1e-9) > math.floor(center + band + 1e-9):
             # No row lies wholly on the markers: how much of the nearest one does.
@@ -128,7 +128,9 @@ class ProfileReader:
         columns = np.arange(first, last + 1) - u
         single = [part[len(part) // 2] for part in parts[:2]]
         halves = np.stack([above, below])
-        return Profile(columns, 0.5 * (above + below), halves, across, single[0], single[1], n, cover, False)
+        return Profile(
+            columns, 0.5 * (above + below), halves, across, single[0], single[1], rows, cover, False
+        )
 
     def _rectify(
         self, rgb: Image, low: float, high: float, middle: float, band: float, plain: tuple[float, float]
@@ -165,7 +167,7 @@ class ProfileReader:
         first, last = np.flatnonzero(filled)[[0, -1]]
         keep = slice(int(first), int(last) + 1)
         columns = origin + np.arange(n)[keep].astype(float)
-        rows = max(1, round(2 * band))
+        rows = 1 / (1 / max(2 * band, 1.0) + 0.5 / (plain[1] - plain[0]))
         band_mean, halves = means[0][keep], np.stack([half[keep] for half in means[1:]])
         plain_mean = halves.mean(axis=0)
         return Profile(columns, plain_mean, halves, band_mean, plain_mean, band_mean, rows, 1.0, True)
