@@ -101,7 +101,8 @@ class FusedEstimator:
         self._lost: PoseEstimate | None = None  # the last estimate before the target was lost
         self._fix: PositionReading | None = None  # the last one that was believed
         self._view: MarkerReading | None = None  # the first that showed the side that is seen now
-        self._alike, self._spread = 0, np.zeros((2, 2))  # how many did, and their mean covariance
+        self._seen: MarkerMeasurement | None = None  # the last frame that did
+        self._alike, self._spread = 0, np.zeros((2, 2))  # how many views did, and their mean covariance
         self._fix_stamp = self._yaw_stamp = -math.inf  # of what was accepted last
         self._repeats.reset()
         self._missed = self._refused = 0
@@ -215,10 +216,14 @@ class FusedEstimator:
         """A frame as the filter takes it; `yaw` is the target's, as known before [rad]."""
         side, view = yaw - seen.bearing, self._view
         if view is not None and view.shows_side(side, seen.distance):
-            self._alike += 1
-            self._spread = self._spread + (seen.covariance - self._spread) / self._alike
+            # A frame that shows what the one before showed says nothing new of how large errors are.
+            if self._seen is None or not seen.same_samples(self._seen):
+                self._alike += 1
+                self._spread = self._spread + (seen.covariance - self._spread) / self._alike
+            self._seen = seen
             return MarkerReading(seen.steadied(view.seen, self._spread), self._mount, side, view)
-        self._view, self._alike, self._spread = MarkerReading(seen, self._mount, side), 1, seen.covariance
+        self._view, self._seen = MarkerReading(seen, self._mount, side), seen
+        self._alike, self._spread = 1, seen.covariance
         return self._view
 
     def _target(self, track: Track, stamp: float) -> tuple[Array, Array, float | None]:

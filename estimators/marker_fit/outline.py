@@ -25,7 +25,6 @@ class Outline(NamedTuple):
         limb_slopes: (2, 3) their derivatives [px/rad, px/rad, px/m].
         markers: (K, 2) left and right end of each marker, as if nothing hid it [px].
         marker_slopes: (K, 2, 3) their derivatives.
-        foot: (K, 2) how far that end moves if the cylinder's surface lies deeper [px/m]; 0 for corners.
         seen: (K, 2) whether that end stands on the side of the cylinder that faces the camera.
         clear: (K, 2) the same as a number from 0 to 1 that passes smoothly from one to the other.
     """
@@ -34,7 +33,6 @@ class Outline(NamedTuple):
     limb_slopes: Array
     markers: Array
     marker_slopes: Array
-    foot: Array
     seen: Flags
     clear: Array
 
@@ -103,8 +101,7 @@ class TargetOutline:
         # Beyond the tangent point (cos = radius / d for a point of the cylinder) an edge is hidden.
         facing = cos / reach - radius / d
         clear = np.minimum(np.maximum(0.5 + facing / (2 * GRAZING), 0.0), 1.0)
-        depth = is_foot * np.abs(sin) * (f / (radius * d))
-        return Outline(limbs, limb_slopes, -f * tan, slopes, depth, facing > 0, clear)
+        return Outline(limbs, limb_slopes, -f * tan, slopes, facing > 0, clear)
 
     def turn_of(self, axis: float, columns: Array, distance: float) -> Array:
         """Angle on the cylinder (N,) [rad], from the direction to the camera, of what columns (N,) show."""

@@ -25,15 +25,13 @@ CENTROID_ERROR = 0.04
 """Standard deviation of a marker's centroid there [px]."""
 MOST_MIXED = 0.2
 """Where pixels average over their area most edges cut one; up to this share may seem to where they do not."""
-SAMPLED_SHAPE = 0.0006
-"""How far a renderer that samples draws facets off the cylinder's tangent, standard deviation [m]."""
-SAMPLED_MARKERS = 0.00023
-"""How far aside it draws the markers that are seen, together, for the facets they stand on, standard deviation [m]
-(simulated over all pixel grids, bearing apart: 0.22 to 0.25 mm)."""
 SAMPLED_LIMB = 0.12
 """Deviation of a bearing that markers on ever other pixels leave of it [px] (simulated: 0.11)."""
+SWEPT = 0.03
+"""What a camera that sweeps leaves of an edge's place, standard deviation [px]. A sweep of 16 frames looks in nine
+directions, the same each time, which lie evenly over a pixel: an edge lies anywhere within a ninth of it."""
 SHAPE = 1e-5
-"""The same of a renderer that does not [m]."""
+"""How far the target's limbs lie off the cylinder's tangent, standard deviation [m]."""
 LIMB_PX = 0.0065
 """What stays of a limb's error at rest where pixels average, as the target's width shows it, root mean square [px]
 (simulated, 60 robots at rest and the mean over their frames: 0.004 too narrow, standard deviation 0.005)."""
@@ -69,7 +67,7 @@ class Problem:
         quantised: Whether a pixel is one sample.
         distance: Predicted distance [m].
         distance_sigma: Its standard deviation [m].
-        shape_error: Standard deviation of the limbs, for the target's shape alone [px].
+        pixel: How wide a pixel is at the target's distance [m].
         noise: Standard deviation of a share of the averaged rows, for pixel noise and blur alone.
         model_error: Standard deviation of edges and shares without noise [px].
     """
@@ -85,7 +83,7 @@ class Problem:
     quantised: bool
     distance: float
     distance_sigma: float
-    shape_error: float
+    pixel: float
     noise: float
     model_error: float
 
@@ -124,28 +122,23 @@ class Problem:
 
     @property
     def middle_error(self) -> float:
-        """Standard deviation of the middle between the limbs, for the target's shape alone [m]."""
-        return (SAMPLED_SHAPE if self.quantised else SHAPE) / math.sqrt(2)
+        """Standard deviation of the middle between the limbs that no sweep of the camera takes away [m]."""
+        return math.hypot(SHAPE, SWEPT * self.pixel if self.quantised else 0.0) / math.sqrt(2)
 
     @property
     def markers_aside(self) -> float:
-        """Standard deviation of where the markers stand, together, for the target's shape alone [m]."""
-        return SAMPLED_MARKERS if self.quantised else 0.0
+        """The same of where the markers stand, together [m]."""
+        return SWEPT * self.pixel / math.sqrt(2 * len(self.markers)) if self.quantised else 0.0
 
     @property
     def scale_error(self) -> float:
         """Standard deviation of the distance between the limbs, as a share."""
-        limb = math.hypot(self.shape_error if self.quantised else 0, LIMB_PX)
-        return limb / math.sqrt(2) / (0.5 * abs(float(self.limbs[1] - self.limbs[0])))
+        return LIMB_PX / math.sqrt(2) / (0.5 * abs(float(self.limbs[1] - self.limbs[0])))
 
     @property
     def limb_error(self) -> float:
         """Standard deviation of a limb [px]."""
-        return (
-            math.hypot(SAMPLED_ERROR, self.shape_error)
-            if self.quantised
-            else math.hypot(self.model_error, NOISE_AT_LIMB * self.noise)
-        )
+        return SAMPLED_ERROR if self.quantised else math.hypot(self.model_error, NOISE_AT_LIMB * self.noise)
 
     def limb_rows(self, outline: Outline) -> tuple[Array, Array]:
         """Residuals (2,) and slopes (2, 3) of the limbs, in standard deviations."""
@@ -202,7 +195,7 @@ def pose_problem(
         quantised=silhouette.mixed + runs.mixed <= MOST_MIXED * (2 + 2 * int((~runs.touching).sum())),
         distance=distance[0],
         distance_sigma=distance[1],
-        shape_error=SAMPLED_SHAPE * focal / distance[0],
+        pixel=distance[0] / focal,
         noise=math.hypot(silhouette.noise / math.sqrt(profile.rows), BLUR if profile.straightened else 0.0),
         model_error=model_error,
     )

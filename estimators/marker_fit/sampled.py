@@ -15,9 +15,11 @@ SPREAD = 1.6
 """Samples are drawn this much wider than the least-squares solution."""
 SOFTNESS = 0.03
 """How far outside its pixel an edge may be, standard deviation [px]."""
-FOOT_SHAPE = 0.002
-"""How much deeper such a renderer's facets may lie where a marker's side meets the cylinder [m]: 1.5 to 2.7 mm in their
-middles."""
+FACETS = 0.3
+"""The same where a renderer draws a round target with flat sides [px]: twelve lie up to 2.7 mm within the radius of
+0.1 m, half a pixel at 2.4 m (29.6 deg, 240 rows)."""
+FACETED = 0.05
+"""How likely that is before a frame is seen."""
 WIDEST = 0.05
 """Where yaw is known less well than this the edges are no straight functions of it [rad]."""
 FEWEST = 12.0
@@ -50,16 +52,18 @@ def feasible_poses(problem: Problem, outline: TargetOutline, start: Solution) ->
     off += at - middles
     np.abs(off, out=off)
     off -= 0.5
-    feet = FOOT_SHAPE * edges.foot[problem.markers][used]
-    softness = np.hypot(SOFTNESS, np.concatenate([np.zeros(2), feet]))
-    softness[:2] = math.hypot(SOFTNESS, problem.shape_error)
-    outside = np.maximum(off, 0.0, out=off)
-    outside /= softness
+    np.maximum(off, 0.0, out=off)
+    outside = np.einsum("ij,ij->i", off, off)
     # The prior of the distance is in the draws' own density already, but wider.
     drift = (_DRAWS @ factor[2] + (start.pose[2] - problem.distance)) / problem.distance_sigma
-    misfits = np.einsum("ij,ij->i", outside, outside)
-    log_weight = _LOG_DRAWS - 0.5 * (misfits + drift * drift)
-    weight = np.exp(log_weight - log_weight.max())
+    log_weight = _LOG_DRAWS - 0.5 * drift * drift
+    # A target that is as believed, or one with flat sides: by how well either explains the frame.
+    believed = log_weight - outside / (2 * SOFTNESS**2)
+    flat = log_weight - outside / (2 * FACETS**2) + _log_odds(len(middles))
+    highest = max(float(believed.max()), float(flat.max()))
+    believed, flat = np.exp(believed - highest), np.exp(flat - highest)
+    weight = believed + flat
+    misfits = outside * (believed / SOFTNESS**2 + flat / FACETS**2) / np.maximum(weight, 1e-300)
     weight /= weight.sum()
     if 1 / float(weight @ weight) < FEWEST:
         return start
@@ -68,6 +72,12 @@ def feasible_poses(problem: Problem, outline: TargetOutline, start: Solution) ->
     covariance = factor @ scatter @ factor.T + RESOLUTION**2 * spread
     misfit = float(weight @ misfits) / len(middles)
     return Solution(start.pose + factor @ mean, np.linalg.inv(covariance), misfit)
+
+
+def _log_odds(edges: int) -> float:
+    """Of flat sides that leave all edges where they are: what may lie in more places is less likely in each."""
+    places = [1 + math.sqrt(2 * math.pi) * softness for softness in (FACETS, SOFTNESS)]
+    return math.log(FACETED / (1 - FACETED)) - edges * math.log(places[0] / places[1])
 
 
 def outline_rows(problem: Problem, seen: np.ndarray) -> Array:

@@ -59,6 +59,26 @@ def test_one_sample_a_pixel():
     assert 0.6 < nees.mean() < 3.0
 
 
+def test_one_sample_a_pixel_of_a_target_that_is_not_as_believed_is_believed_less():
+    """A renderer that draws flat sides puts edges where the target as it is believed has none."""
+    believed = pictures.room_calibration()
+    fit, widths, nees = MarkerFit(believed), [], []
+    for radius in (0.1, 0.098):
+        drawn = dataclasses.replace(believed, target=dataclasses.replace(believed.target, radius=radius))
+        for i, pose in enumerate(poses(40)):
+            off = np.random.default_rng(i).uniform(-1, 1) * DEG
+            frame = pictures.frame(drawn, pose, off, samples=(1, 1))
+            m = fit.measure(frame, (pose[0] + 0.001, pose[1] - 0.001), 0.0015**2 * np.eye(2))
+            residual = m.innovation(*pose)[0]
+            widths.append(np.linalg.det(m.covariance))
+            nees.append(residual @ np.linalg.solve(m.covariance, residual))
+    widths, nees = np.reshape(widths, (2, -1)), np.reshape(nees, (2, -1))
+    assert nees[0].mean() < 2.0
+    assert nees[1].mean() < 6.0  # 11 if nobody reckons with it, and up to 200 in single frames
+    assert nees[1].max() < 50
+    assert np.mean(widths[1] > widths[0]) > 0.5
+
+
 def test_photometric_beats_centroids():
     calibration = pictures.room_calibration()
     whole, middles = (
