@@ -111,7 +111,9 @@ class MarkerReading:
         passed, turned = self._moved(before, velocities, turning)
         image, limbs = self.seen.kept(before.seen, passed, turned)
         shape = np.exp(-turned / SHAPE_TURN)
-        return np.stack([image, image, limbs, shape, shape, shape], axis=1)
+        # Where pixels average, the width is off by how limbs are read, which is the same on every side.
+        scale = shape if self.seen.quantised else np.ones_like(shape)
+        return np.stack([image, image, limbs, shape, scale, shape], axis=1)
 
     def plausible(
         self, before: MarkerReading, velocities: Array, turning: Array, log_likelihood: Array

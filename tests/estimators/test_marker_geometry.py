@@ -169,7 +169,12 @@ def test_what_lasts_follows_how_the_robot_moves_and_not_what_a_frame_says(measur
     before, after = MarkerReading(measurement, Pose2(), 0.5), MarkerReading(aside, Pose2(), 0.53)
     rest, turn = after.kept(before, np.zeros((2, 2)), np.array([0.0, 4.0]))
     np.testing.assert_allclose(rest, 1.0)
-    np.testing.assert_allclose(turn, [0, 0, 1, *[math.exp(-0.4 / SHAPE_TURN)] * 3])
+    faded = math.exp(-0.4 / SHAPE_TURN)
+    np.testing.assert_allclose(turn, [0, 0, 1, faded, 1, faded])
+
+    sampled = dataclasses.replace(aside, quantised=True)
+    other_side = MarkerReading(sampled, Pose2(), 0.53).kept(before, np.zeros((1, 2)), np.array([4.0]))[0]
+    assert other_side[4] == pytest.approx(faded)  # a limb falls on other samples: the width is another
 
 
 def test_a_camera_that_turns_with_the_target_sees_the_same(measurement):
