@@ -20,7 +20,7 @@ from gt_env.render.window import QUIT, Keys
 RECORD: Final = "r"
 SAVE: Final = "s"
 LOG_SCANS: Final = "l"
-KEY_HELP: Final = "arrows drive | space or p stop | r record on/off | l scan log on/off | s save | q quit"
+KEY_HELP: Final = "arrows drive | space or p stop | r record | l scan log | s save | q quit"
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)

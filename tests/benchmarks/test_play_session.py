@@ -102,6 +102,12 @@ def test_the_numbers_are_there(session):
         assert part in text
 
 
+def test_no_line_is_cut_off_in_a_terminal_of_80_columns(session):
+    press(session, "r", "l")
+
+    assert max(len(line) for line in status_lines(session.status)) < 80
+
+
 def test_without_a_fix_the_lines_stay_where_they_are(session):
     with_fix = status_lines(session.status)
     session.env.valid = False
