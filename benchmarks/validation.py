@@ -73,14 +73,14 @@ FULL = Effort(
     stress=4,
 )
 QUICK = Effort(
-    samples=50,
-    placements=5,
+    samples=30,
+    placements=2,
     single_scans=100,
     joint_scans=2,
-    at_rest=2,
-    at_rest_dithered=2,
-    driving=3,
-    longest_drive=8.0,
+    at_rest=1,
+    at_rest_dithered=1,
+    driving=2,
+    longest_drive=4.0,
     stress=1,
 )
 

@@ -88,7 +88,7 @@ class Effort:
 
 
 FULL: Final = Effort(scans=1000, drives=10)
-QUICK: Final = Effort(scans=60, drives=1)
+QUICK: Final = Effort(scans=200, drives=1)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -104,8 +104,13 @@ def _white(w: Whiteness) -> dict[str, Any]:
 
 def _cells(found: Consistency) -> tuple[str, ...]:
     nees = (_nees(found.nees[name]) for name in PARTS)
-    covered = (f"{100 * c.share:.0f} ± {100 * c.deviation:.0f} %" for c in found.coverage)
-    return *nees, *covered
+    return *nees, *(_share(c) for c in found.coverage)
+
+
+def _share(c: Coverage) -> str:
+    """With its standard error where there are several runs to know it from."""
+    spare = f" ± {100 * c.deviation:.0f}" if math.isfinite(c.deviation) else ""
+    return f"{100 * c.share:.0f}{spare} %"
 
 
 def _nees(n: Nees) -> str:
