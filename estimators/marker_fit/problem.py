@@ -28,8 +28,9 @@ MOST_MIXED = 0.2
 SAMPLED_LIMB = 0.12
 """Deviation of a bearing that markers on ever other pixels leave of it [px] (simulated: 0.11)."""
 SWEPT = 0.03
-"""What a camera that sweeps leaves of an edge's place, standard deviation [px]. A sweep of 16 frames looks in nine
-directions, the same each time, which lie evenly over a pixel: an edge lies anywhere within a ninth of it."""
+"""What a camera that sweeps leaves of an edge's place, standard deviation [px]: the middle of the poses that agree with
+a frame, averaged over a sweep, is off by 0.04 px of bearing and 0.14 deg of yaw (simulated, 40 robots, root mean
+square), and other lasting errors cover a part of that."""
 SHAPE = 1e-5
 """How far the target's limbs lie off the cylinder's tangent, standard deviation [m]."""
 LIMB_PX = 0.0065
