@@ -1,0 +1,55 @@
+"""What the documentation tells the reader to type is understood, and its short pieces of Python run."""
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+from typer.main import get_command
+
+from benchmarks.cli import app
+from gt_env.config import load_config, parse_override
+
+ROOT = Path(__file__).parents[1]
+PAGES = {page.name: page.read_text() for page in sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")])}
+SHORT = ("localizers.md", "recordings.md", "scoring.md", "tasks.md")
+COMMANDS = get_command(app).commands
+
+
+def typed(text):
+    """Command lines of `gt-env` in a page: in blocks, and in a sentence if they have arguments."""
+    blocks = "\n".join(re.findall(r"```sh\n(.*?)```", text, re.S)).replace("\\\n", " ")
+    lines = [line.partition("#")[0] for line in blocks.splitlines()]
+    parts = [part.strip() for line in lines for part in re.split(r"&&|[;|]", line)]
+    prose = re.findall(r"`(gt-env [^`]*)`", re.sub(r"```.*?```", "", text, flags=re.S))
+    words = [shlex.split(part) for part in parts if part.startswith("gt-env ")]
+    return words + [line for line in map(shlex.split, prose) if len(line) > 2]
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_every_command_is_understood(page):
+    for _, name, *arguments in typed(PAGES[page]):
+        asked = COMMANDS[name].make_context(name, arguments).params
+        config = asked.get("config")
+        if config and not set(config) & set("./"):  # a preset
+            load_config(config, dict(map(parse_override, asked["overrides"] or ())))
+
+
+def test_there_are_commands():
+    assert len(typed(PAGES["validation.md"])) > 5
+    assert len(typed(PAGES["README.md"])) > 5
+
+
+@pytest.mark.parametrize("page", SHORT)
+def test_every_piece_of_python_runs(page, tmp_path, monkeypatch):
+    pytest.importorskip("pybullet")
+    monkeypatch.chdir(tmp_path)
+    names = {"__name__": "documentation"}
+    pieces = re.findall(r"```python\n(.*?)```", PAGES[page], re.S)
+    for piece in pieces:
+        exec(piece, names)
+
+    assert pieces
+    for made in ("env", "arena"):
+        if made in names:
+            names[made].close()
