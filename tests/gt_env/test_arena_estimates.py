@@ -72,7 +72,8 @@ def test_while_driving_the_answer_lags(make):
 @pytest.mark.parametrize("mount", [(0.0, 0.0), (0.05, -0.03)])
 def test_the_answer_is_the_base_wherever_the_target_is_mounted(make, drive, mount):
     env = GroundTruthWrapper(make({"target": {"mount": list(mount), "mount_yaw_deg": 20.0}}), method="thesis")
-    env.reset(seed=1, options={"pose": (0.5, 2.0, 1.0)})
+    # Not 1.0: there no marker stands where the rule looks for one.
+    env.reset(seed=1, options={"pose": (0.5, 2.0, 1.2)})
     poses = np.array([drive(env, 1)[1]["gt"]["pose"] for _ in range(30)])
 
-    assert poses[5:].mean(axis=0) == pytest.approx([0.5, 2.0, 1.0], abs=0.06)
+    assert poses[5:].mean(axis=0) == pytest.approx([0.5, 2.0, 1.2], abs=0.06)
