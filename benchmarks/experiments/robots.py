@@ -25,7 +25,7 @@ SHIPPED: Final = ("husky", "racecar")
 """Presets of robots that others made."""
 OF_SHIPPED: Final = ("lrf.height", "camera.position", "room.wall_height")
 """What such a preset says besides of the robot and its target: the station stands as high as the target."""
-FREELY: Final = "omni3, turning freely"
+FREELY: Final = "omni3, turning"
 """The omnidirectional robot, on the same ways, but turning as it likes."""
 ROBOTS: Final = (DEFAULT, "skid_steer", "ackermann", "omni3", FREELY, *SHIPPED)
 WAYS: Final = (EIGHT_PATH, "rounded-rectangle", "circuit")

@@ -16,6 +16,8 @@ from benchmarks.robots import RobotScores
 COMPARED: Final = {"skid_steer": 1.3, "ackermann": 1.3}
 """How much larger the error of the position may be than with the default robot."""
 ONLINE: Final = "fused"
+SHOWN: Final = SCORED[:3] + SCORED[4:5]
+"""Of `SCORED`, as many columns as a narrow terminal has room for."""
 
 
 def robots_json(scores: RobotScores) -> dict[str, Any]:
@@ -36,10 +38,9 @@ def robot_table(scores: RobotScores) -> Table:
     rows = [
         (
             name,
-            of.motion,
             method,
-            *score_cells(s)[:-1],
-            *honest_cells(of.honesty.get(method)),
+            *(cell for head, cell in zip(SCORED, score_cells(s), strict=True) if head in SHOWN),
+            honest_cells(of.honesty.get(method))[0],
             NONE if name == DEFAULT else number(scores.beside_default(name, method), 2),
         )
         for name, of in scores.robots.items()
@@ -47,11 +48,12 @@ def robot_table(scores: RobotScores) -> Table:
     ]
     return Table(
         title=f"Several robots on the same ways, each driven {scores.effort.repeats} times",
-        head=("robot", "motion", "method", *SCORED, "inside 95 % [%]", "over the first"),
+        head=("robot", "method", *SHOWN, "NEES", "over the first"),
         rows=tuple(rows),
         note="Figure of eight, rounded rectangle and a circuit of arcs and stops at 0.45 m/s; robots are steered along "
-        "them by somebody who sees them, with the same noise for each. motion: how the estimators believe that it can "
-        "move. heading: mean absolute error. over the first: RMSE over that of the first robot. "
+        "them by somebody who sees them, with the same noise for each. Estimators believe that they move like this: "
+        + ", ".join(f"{name} {of.motion}" for name, of in scores.robots.items())
+        + ". heading: mean absolute error. over the first: RMSE over that of the first robot. "
         + honest_note(of.honesty for of in scores.robots.values()),
         section="robots",
     )

@@ -1,6 +1,8 @@
 """Several robots on the same ways: what is planned, and what becomes of it."""
 
+import io
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,6 +12,7 @@ from benchmarks.experiments.course import reach
 from benchmarks.experiments.robots import DEFAULT, FREELY, ROBOTS, SHIPPED, WAYS, Effort, robot_config
 from benchmarks.following_freely import FreeFollower
 from benchmarks.report.robots import robot_goals, robot_table, robots_json
+from benchmarks.report.terminal import rich_table
 from benchmarks.robots import plan_robots, run_robots
 from estimators.errors import ConfigError
 from estimators.kinematics import Omni3
@@ -90,4 +93,10 @@ def test_robots_come_out_as_numbers_a_table_and_targets(monkeypatch):
     table = robot_table(scores)
     assert [row[0] for row in table.rows] == names
     assert {len(row) for row in table.rows} == {len(table.head)}
+    assert "ackermann steered" in table.note
+    drawn = Console(width=80, record=True, file=io.StringIO())
+    drawn.print(rich_table(replace(table, note="")))
+    words = drawn.export_text().split()
+    assert not {"differential", "ackermann", "turning", "RMSE", "heading", "first", "[deg]"} - set(words)
+    assert {cell for row in table.rows for cell in row[1:]} <= set(words)
     assert list(robot_goals(scores)) == []  # which are those of `fused`
