@@ -30,7 +30,7 @@ QUICK_EPISODES = 10
 PolicyArgument = Annotated[
     list[str],
     typer.Argument(
-        metavar="POLICY...",
+        metavar="POLICY",
         help="A folder of gt-env train, a file of stable-baselines3, module:Class (called with the environment), or "
         f"one of {', '.join(SCRIPTED)}.",
         show_default=False,
@@ -46,7 +46,7 @@ def evaluate(
             "--task", metavar="NAME", help=f"One of {', '.join(TASKS)}; by default what was trained for."
         ),
     ] = None,
-    episodes: Annotated[int, typer.Option("--episodes", min=1, help="Of each policy.")] = 100,
+    episodes: Annotated[int, typer.Option("--episodes", metavar="N", min=1, help="Of each policy.")] = 100,
     config: Annotated[
         str | None,
         typer.Option(

@@ -25,12 +25,12 @@ SetOption = Annotated[
         "--set", metavar="KEY=VALUE", help="A value over the configuration, e.g. lrf.noise_sigma=0.01."
     ),
 ]
-SeedOption = Annotated[int, typer.Option("--seed", min=0, help="Seed of all randomness.")]
+SeedOption = Annotated[int, typer.Option("--seed", metavar="N", min=0, help="Seed of all randomness.")]
 OutOption = Annotated[
     Path, typer.Option("--out", metavar="DIR", file_okay=False, help="Folder for reports and figures.")
 ]
 QuickOption = Annotated[bool, typer.Option("--quick", help="A short run: fewer samples, same tables.")]
-JobsOption = Annotated[int, typer.Option("--jobs", min=1, help="How many runs side by side.")]
+JobsOption = Annotated[int, typer.Option("--jobs", metavar="N", min=1, help="How many runs side by side.")]
 EngineOption = Annotated[
     str,
     typer.Option("--engine", metavar="NAME", help=f"Who carries the runs out: {', '.join(ENGINES)}."),
@@ -54,13 +54,13 @@ GtMethodOption = Annotated[
     str, typer.Option("--method", metavar="NAME", help=f"Ground-truth method: {', '.join(METHODS)}.")
 ]
 BearingIncrementOption = Annotated[
-    float | None, typer.Option(help="Text log or folder: angle between ranges [deg].")
+    float | None, typer.Option(metavar="DEG", help="Text log or folder: angle between ranges [deg].")
 ]
 BearingMinOption = Annotated[
-    float | None, typer.Option(help="Text log or folder: bearing of the first range [deg].")
+    float | None, typer.Option(metavar="DEG", help="Text log or folder: bearing of the first range [deg].")
 ]
 RateOption = Annotated[
-    float | None, typer.Option(help="Text log, or folder without stamps: scans per second.")
+    float | None, typer.Option(metavar="HZ", help="Text log, or folder without stamps: scans per second.")
 ]
 DataConfigOption = Annotated[
     str | None,

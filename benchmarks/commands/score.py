@@ -30,7 +30,7 @@ from benchmarks.trajectory.association import MAX_GAP
 SubjectsArgument = Annotated[
     list[str] | None,
     typer.Argument(
-        metavar="[SUBJECT]...",
+        metavar="SUBJECT",
         help="A localizer's name, MODULE:CLASS, MODULE:FUNCTION, or NAME=FILE (TUM, CSV) beside a recording; "
         "without any, all localizers.",
     ),
@@ -53,10 +53,11 @@ def score(
         ),
     ] = None,
     seeds: Annotated[
-        int | None, typer.Option("--seeds", min=1, help="Runs of each path (3; with --quick 1).")
+        int | None, typer.Option("--seeds", metavar="N", min=1, help="Runs of each path (3; with --quick 1).")
     ] = None,
     duration: Annotated[
-        float | None, typer.Option("--duration", min=1.0, help="Of a run [s] (60; with --quick 20).")
+        float | None,
+        typer.Option("--duration", metavar="S", min=1.0, help="Of a run [s] (60; with --quick 20)."),
     ] = None,
     recording: Annotated[
         list[Path] | None,
@@ -81,12 +82,20 @@ def score(
     ] = "fused",
     align: Annotated[str, typer.Option("--align", metavar="HOW", help=", ".join(ALIGNMENTS))] = "none",
     max_gap: Annotated[
-        float, typer.Option("--max-gap", min=0.0, help="Up to which the reference is interpolated [s].")
+        float,
+        typer.Option(
+            "--max-gap", metavar="S", min=0.0, help="Up to which the reference is interpolated [s]."
+        ),
     ] = MAX_GAP,
     calibration_mm: Annotated[
-        float, typer.Option(min=0.0, help="Standard uncertainty of the station's calibration, per axis [mm].")
+        float,
+        typer.Option(
+            metavar="MM", min=0.0, help="Standard uncertainty of the station's calibration, per axis [mm]."
+        ),
     ] = 0.0,
-    calibration_deg: Annotated[float, typer.Option(min=0.0, help="The same of its yaw [deg].")] = 0.0,
+    calibration_deg: Annotated[
+        float, typer.Option(metavar="DEG", min=0.0, help="The same of its yaw [deg].")
+    ] = 0.0,
     record: Annotated[
         bool, typer.Option("--record", help="Keep a recording of each live run, and what was said in it.")
     ] = False,

@@ -29,12 +29,14 @@ TasksConfigOption = Annotated[
     str, typer.Option("--config", metavar="NAME_OR_FILE", help="A preset's name or a TOML file.")
 ]
 StepsOption = Annotated[
-    int | None, typer.Option("--steps", min=1, help="Of the environment, in place of the file's.")
+    int | None,
+    typer.Option("--steps", metavar="N", min=1, help="Of the environment, in place of the file's."),
 ]
 SeedsOption = Annotated[
     int,
     typer.Option(
         "--seeds",
+        metavar="N",
         min=1,
         help="Trainings that differ in their seed only, from --seed on, each in a folder of its own within --out.",
     ),
@@ -69,7 +71,9 @@ def train(
     estimate: EstimateOption = None,
     settings_file: HyperOption = None,
     resume: ResumeOption = False,
-    jobs: Annotated[int, typer.Option("--jobs", min=1, help="Processes to step environments in.")] = 1,
+    jobs: Annotated[
+        int, typer.Option("--jobs", metavar="N", min=1, help="Processes to step environments in.")
+    ] = 1,
     out: Annotated[
         Path | None, typer.Option("--out", metavar="DIR", file_okay=False, help="Folder of the training.")
     ] = None,
