@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
+from benchmarks.commands.answer import say
 from benchmarks.commands.bench import bench
 from benchmarks.commands.calibrate import calibrate
 from benchmarks.commands.evaluate import evaluate
@@ -99,7 +100,5 @@ def run(words: Sequence[str]) -> int:
 
 
 def _failed(message: str, status: int) -> int:
-    Console(stderr=True, emoji=False, highlight=False, soft_wrap=True).print(
-        f"{PROGRAM}: {message}", markup=False
-    )
+    say(Console(stderr=True, emoji=False), f"{PROGRAM}: {message}")
     return status

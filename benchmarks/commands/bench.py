@@ -6,6 +6,7 @@ from pathlib import Path
 
 from rich.console import Console
 
+from benchmarks.commands.answer import show
 from benchmarks.commands.options import (
     ConfigOption,
     NoFiguresOption,
@@ -30,7 +31,6 @@ def bench(
     """Measure speed and memory: sensors, steps, vector environments and estimators, in ratios."""
     from benchmarks.bench.report import bench_command, left_out, report_json, tables
     from benchmarks.bench.run import plan_bench, run_bench
-    from benchmarks.report.terminal import rich_table
 
     settings = configuration(config, overrides)
     if not no_figures:
@@ -47,9 +47,4 @@ def bench(
             from benchmarks.bench.page import write_page
 
             write_page(folder, setup, command, findings)
-    for table in shown:
-        console.print(rich_table(table))
-    for line in skipped:
-        console.print(line, soft_wrap=True, highlight=False, markup=False)
-    name = "report.json" if no_figures else "report.html"
-    console.print(str(out / name), soft_wrap=True, highlight=False, markup=False)
+    show(console, shown, *skipped, str(out / ("report.json" if no_figures else "report.html")))

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from benchmarks.commands.answer import show
 from benchmarks.commands.options import (
     BearingIncrementOption,
     BearingMinOption,
@@ -42,7 +43,6 @@ def calibrate(
     from benchmarks.calibration import calibrate as calibrate_recording
     from benchmarks.calibration import calibrate_command, quantity_table, report, residual_table
     from benchmarks.recording.sources import LawOptions, open_source
-    from benchmarks.report.terminal import rich_table
 
     if not no_figures:
         require_report_extra()
@@ -62,10 +62,5 @@ def calibrate(
             from benchmarks.report.calibration import write_page
 
             write_page(folder, run, summary["setup"], tables)
-    console = Console(emoji=False)
-    for table in tables:
-        console.print(rich_table(table))
-    for line in assumed(source, config):
-        console.print(line, soft_wrap=True, highlight=False, markup=False)
-    for name in (CALIBRATION_FILE, *(() if no_figures else ("report.html",))):
-        console.print(str(out / name), soft_wrap=True, highlight=False, markup=False)
+    files = (CALIBRATION_FILE, *(() if no_figures else ("report.html",)))
+    show(Console(emoji=False), tables, *assumed(source, config), *(str(out / name) for name in files))

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from benchmarks.commands.answer import show
 from benchmarks.commands.options import (
     AddressOption,
     EngineOption,
@@ -71,7 +72,6 @@ def evaluate(
     from benchmarks.evaluation.candidates import candidates
     from benchmarks.evaluation.report import evaluate_command, findings, report_json, tables
     from benchmarks.evaluation.run import plan_evaluation, run_evaluation
-    from benchmarks.report.terminal import rich_table
 
     place = Engine(name=engine, address=address)
     if not no_figures:
@@ -114,7 +114,4 @@ def evaluate(
             from benchmarks.evaluation.video import write_videos
 
             write_videos(folder, plan)
-    for table in tables(found):
-        console.print(rich_table(table))
-    name = "report.json" if no_figures else "report.html"
-    console.print(str(out / name), soft_wrap=True, highlight=False, markup=False)
+    show(console, tables(found), str(out / ("report.json" if no_figures else "report.html")))

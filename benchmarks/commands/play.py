@@ -12,6 +12,7 @@ import gymnasium as gym
 import typer
 from rich.console import Console
 
+from benchmarks.commands.answer import say
 from benchmarks.commands.options import (
     ConfigOption,
     GtMethodOption,
@@ -93,9 +94,7 @@ def _play(session: PlaySession, seed: int, window: Window | None) -> None:
     except KeyboardInterrupt:
         interrupted, ended = True, "gt-env: interrupted: "
     finally:
-        Console(stderr=True, emoji=False, highlight=False, soft_wrap=True).print(
-            ended + session.close(), markup=False
-        )
+        say(Console(stderr=True, emoji=False), ended + session.close())
     if interrupted:
         raise typer.Exit(130)
 

@@ -11,6 +11,7 @@ import typer
 from rich.console import Console
 
 from benchmarks import metrics
+from benchmarks.commands.answer import show
 from benchmarks.commands.options import (
     BearingIncrementOption,
     BearingMinOption,
@@ -136,7 +137,6 @@ def _write(folder: Path, recording: Recording, result: Replay, report: dict[str,
 
 def _print(report: dict[str, Any], remarks: list[str], out: Path) -> None:
     from benchmarks.report.tables import Table
-    from benchmarks.report.terminal import rich_table
 
     setup, gt, errors = report["setup"], report["gt"], report["gt_vs_true"]
     counts = ", ".join(f"{n} {kind}" for kind, n in report["measurements"].items() if n)
@@ -154,13 +154,10 @@ def _print(report: dict[str, Any], remarks: list[str], out: Path) -> None:
         head=(f"method {setup['method']}", "x", "y", "yaw"),
         rows=tuple(rows),
     )
-    console = Console(emoji=False, highlight=False, soft_wrap=True)
-    console.print(rich_table(table))
     line = f"{gt['n']} poses, {100 * gt['valid']:.0f} % valid"
     if errors is not None:
         line += f", RMSE {errors['rmse_xy_mm']:.1f} mm against the true pose"
-    for said in (*remarks, f"{line}. Written to {out}"):
-        console.print(said, markup=False)
+    show(Console(emoji=False), [table], *remarks, f"{line}. Written to {out}")
 
 
 def _to_mm(values: Numbers) -> Numbers:

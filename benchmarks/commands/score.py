@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from benchmarks.commands.answer import show
 from benchmarks.commands.options import (
     AddressOption,
     EngineOption,
@@ -118,7 +119,6 @@ def score(
 ) -> None:
     """Score localizers against the ground truth, and say where the reference is not good enough."""
     from benchmarks.engines import Engine
-    from benchmarks.report.terminal import rich_table
     from benchmarks.scoring.carry_out import carry_out
     from benchmarks.scoring.write import problems, write_page
 
@@ -151,9 +151,5 @@ def score(
         (folder / "report.json").write_text(result.json(setup), encoding="utf-8")
         if not no_figures:
             write_page(folder, result, request.room(), setup, console)
-    for table in result.tables()[:SHOWN_TABLES]:
-        console.print(rich_table(table))
-    for line in problems(result):
-        console.print(line, markup=False, highlight=False, soft_wrap=True)
     page = out / ("report.json" if no_figures else "report.html")
-    console.print(str(page), soft_wrap=True, highlight=False, markup=False)
+    show(console, result.tables()[:SHOWN_TABLES], *problems(result), str(page))

@@ -16,6 +16,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+from benchmarks.commands.answer import say
 from benchmarks.commands.options import SeedOption, SetOption, configuration
 from benchmarks.output import check_writable
 from benchmarks.policies.surroundings import ESTIMATES, TASKS
@@ -104,10 +105,7 @@ def train(
     for run, place in zip(runs, places, strict=True):
         check_writable(place)
         _train(run, place, resume and (place / POLICY).is_file(), jobs)
-    console = Console(emoji=False)
-    console.print(
-        f"gt-env evaluate {folder} judges what was learnt", soft_wrap=True, highlight=False, markup=False
-    )
+    say(Console(emoji=False), f"gt-env evaluate {folder} judges what was learnt")
 
 
 def _resumed(folder: Path, task: str, algo: str, steps: int | None) -> Run:
@@ -160,12 +158,7 @@ def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
             spent = {"seconds": clock() - wall, "cpu_seconds": process_time() - cpu}
             spent = {key: value + run.setup.get(key, 0.0) for key, value in spent.items()}
             replace(run, setup={**run.setup, **spent}).write(folder)
-    Console(emoji=False).print(
-        f"{best_policy(folder)}: {done} steps in {clock() - wall:.0f} s",
-        soft_wrap=True,
-        highlight=False,
-        markup=False,
-    )
+    say(Console(emoji=False), f"{best_policy(folder)}: {done} steps in {clock() - wall:.0f} s")
 
 
 def _left_behind(run: Run, folder: Path) -> str:

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
+from benchmarks.commands.answer import show
 from benchmarks.commands.options import (
     AddressOption,
     CalibrationOption,
@@ -78,7 +79,6 @@ def validate(
     from benchmarks.cameras import plan_cameras, run_cameras
     from benchmarks.report.scores import score_validation
     from benchmarks.report.setup import describe, validate_command
-    from benchmarks.report.terminal import rich_table
     from benchmarks.report.write import Outcome, write_numbers, write_page
     from benchmarks.robots import plan_robots, run_robots
     from benchmarks.rollout import watched_arena
@@ -129,9 +129,7 @@ def validate(
         report = write_numbers(folder, outcome, setup)
         if not no_figures:
             report = write_page(folder, outcome, setup, console)
-    for table in outcome.tables():
-        console.print(rich_table(table))
-    console.print(str(out / report), soft_wrap=True, highlight=False, markup=False)
+    show(console, outcome.tables(), str(out / report))
 
 
 def _parts(only: list[str] | None, beside: dict[str, bool]) -> list[str]:
