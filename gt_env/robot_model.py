@@ -162,7 +162,15 @@ def add_inertia(
     size: Sequence[float],
     middle: Sequence[float],
 ) -> None:
-    """Body (a box) and target (a full cylinder) as one rigid body, by the parallel-axis theorem."""
+    """Body (a box) and target (a full cylinder) as one rigid body, by the parallel-axis theorem.
+
+    Args:
+        link: That gets it.
+        robot: Mass of the body.
+        target: Mass, size and place of the target.
+        size: Length, width and height of the body [m].
+        middle: Of the body, x, y, z in the base's frame [m].
+    """
     lx, ly, lz = size
     body_i = [robot.mass * s / 12 for s in (ly**2 + lz**2, lx**2 + lz**2, lx**2 + ly**2)]
     h = target.z_max - target.z_min

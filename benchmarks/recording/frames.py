@@ -44,7 +44,11 @@ class StoredFrame:
 
 
 def encode_png(rgb: NDArray[np.uint8]) -> bytes:
-    """An RGB image (H, W, 3) as the bytes of a PNG file."""
+    """An RGB image (H, W, 3) as the bytes of a PNG file.
+
+    Raises:
+        RecordingError: If OpenCV cannot write it.
+    """
     written, png = cv2.imencode(".png", cv2.cvtColor(rgb, cv2.COLOR_RGB2BGR))  # OpenCV writes BGR
     if not written:
         raise RecordingError(f"an image of shape {rgb.shape} cannot be written as PNG")

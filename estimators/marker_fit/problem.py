@@ -171,7 +171,18 @@ def pose_problem(
     profile: Profile,
     model_error: float,
 ) -> Problem:
-    """Put together what was found; distance as (mean, sigma) [m]."""
+    """Put together what was found.
+
+    Args:
+        target: What it is meant to look like.
+        silhouette: Its limbs in the image.
+        runs: Where something stands out of its white.
+        found: Which of these is which marker.
+        distance: From the camera to its axis, mean and standard deviation [m].
+        focal: Length [px].
+        profile: The colours by column that all this was found in.
+        model_error: Standard deviation of edges and shares without noise [px].
+    """
     used = np.flatnonzero(found.markers >= 0)
     swallowed = 1 - np.asarray(target.marker_colors, float) / 255
     share = np.zeros(len(runs.columns))

@@ -20,7 +20,17 @@ class Message:
 
 
 def freeze(message: object, name: str, dtype: Any, ndim: int) -> None:
-    """Store the field as a read-only array, copied unless it already is one, checking its dimensions."""
+    """Store the field as a read-only array, copied unless it already is one, checking its dimensions.
+
+    Args:
+        message: Whose field it is; of a frozen dataclass.
+        name: Of the field.
+        dtype: The array's.
+        ndim: How many dimensions it must have.
+
+    Raises:
+        MeasurementError: If it has others.
+    """
     array = np.asarray(getattr(message, name), dtype)
     if array.ndim != ndim:
         kind = type(message).__name__
@@ -32,7 +42,11 @@ def freeze(message: object, name: str, dtype: Any, ndim: int) -> None:
 
 
 def check_finite(message: object, *names: str) -> None:
-    """Refuse fields that are infinite or not a number."""
+    """Refuse fields that are infinite or not a number.
+
+    Raises:
+        MeasurementError: If one is; the message names it.
+    """
     for name in names:
         value = getattr(message, name)
         if not math.isfinite(value):

@@ -136,7 +136,15 @@ def log_likelihood_ratio(
 def target_nll(
     beams: Beams, position: Array, *, radius: float, velocity: tuple[float, float], reference: float
 ) -> Array:
-    """Capped negative log-likelihood (M,) of the beams that should meet a target at a position (2,) [m]."""
+    """Capped negative log-likelihood (M,) of the beams that should meet a target at a position.
+
+    Args:
+        beams: Of one scan.
+        position: (2,) of the target at the time `reference` [m].
+        radius: Of the target [m].
+        velocity: Of the target [m/s].
+        reference: Time after the scan's stamp [s].
+    """
     lag = beams.times - reference
     dx = position[0] + velocity[0] * lag - beams.origin[0]
     dy = position[1] + velocity[1] * lag - beams.origin[1]

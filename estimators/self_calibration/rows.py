@@ -53,7 +53,14 @@ class Rows:
 
 
 def place_rows(places: Places, values: Array, knots: Knots, track: Array) -> Rows:
-    """Places against the track; 2 rows each."""
+    """Places against the track, along and across the line of sight; 2 rows each.
+
+    Args:
+        places: N of them.
+        values: The quantities (10,).
+        knots: Of the track.
+        track: Its coefficients (count, 2) [m].
+    """
     n = len(places)
     index, weights = knots.basis(places.stamps)
     c, s = np.cos(values[Q.LRF_YAW]), np.sin(values[Q.LRF_YAW])
@@ -96,7 +103,7 @@ def sighting_rows(sightings: Sightings, values: Array, height: int, knots: Knots
         values: The quantities (10,).
         height: Of the image [px].
         knots: Of the track.
-        track: Its coefficients (count, 2).
+        track: Its coefficients (count, 2) [m].
     """
     times = sightings.stamps - values[Q.CLOCK_OFFSET]
     index, weights = knots.basis(times)
@@ -163,7 +170,14 @@ def width_rows(sightings: Sightings, values: Array, height: int, knots: Knots, t
 
 
 def expected_columns(points: Array, pans: Array, values: Array, focal: float) -> Array:
-    """Straight columns (N,) [px] of points (N, 2) [m] with the encoder at (N,) [rad]."""
+    """Straight columns (N,) [px] of points (N, 2) [m] with the encoder at (N,) [rad].
+
+    Args:
+        points: In the room.
+        pans: The encoder's readings.
+        values: The quantities (10,).
+        focal: Length [px].
+    """
     away = points - values[[Q.CAMERA_X, Q.CAMERA_Y]]
     angle = wrap_angle(np.arctan2(away[:, 1], away[:, 0]) - pans - values[Q.PAN_OFFSET])
     columns: Array = -focal * np.tan(np.clip(angle, -BESIDE, BESIDE))

@@ -101,7 +101,11 @@ class FollowPath(Task):
         return self._path.points
 
     def begin(self, rng: np.random.Generator, room: Room, start: Pose2 | None, goal: Array | None) -> Pose2:
-        """Draw a path unless one is configured, and a start near its beginning."""
+        """Draw a path unless one is configured, and a start near its beginning.
+
+        Raises:
+            ConfigError: If a goal is given, or the path does not fit into the room.
+        """
         self.refuse_goal(goal, "task.path")
         self._path: Path = (
             self._configured(room) if self.settings.path else sample_path(rng, self._config, room)

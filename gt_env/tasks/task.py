@@ -169,7 +169,11 @@ class Task(ABC):
         return self.goal.reshape(-1).astype(np.float32)
 
     def refuse_goal(self, goal: Array | None, key: str) -> None:
-        """Raise if a goal is given to a task whose goal is set elsewhere."""
+        """Refuse a goal for a task whose goal is set elsewhere.
+
+        Raises:
+            ConfigError: If there is one; the message names the key that sets it.
+        """
         if goal is not None:
             raise ConfigError(f"options['goal'] = {goal}: this task takes none; {key} sets what to do")
 
