@@ -19,6 +19,8 @@ READING = (
     "All are root mean squares. vs gt: against the station, less its own stated variance; 95 %: holds what the error "
     "of these very runs was; another run: 95 % interval of what very many such runs would bring."
 )
+STANDS_OUT = 3.0
+"""Standard errors beyond which an offset is pointed out."""
 
 
 def score_tables(
@@ -149,7 +151,7 @@ def _offsets(order: Sequence[SubjectSummary], reference: str) -> Table:
                 cells.append("not observable" if found is not None else NONE)
                 continue
             _, factor = OFFSET_UNITS[name]
-            star = "*" if abs(found.values[i]) > 3 * found.errors[i] else ""
+            star = "*" if abs(found.values[i]) > STANDS_OUT * found.errors[i] else ""
             cells.append(f"{factor * found.values[i]:.2f} ± {factor * found.errors[i]:.2f}{star}")
         rows.append((s.name, *cells))
     head = ("subject", *(f"{name} [{OFFSET_UNITS[name][0]}]".replace("_", " ") for name in NAMES))

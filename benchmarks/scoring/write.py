@@ -16,10 +16,11 @@ from benchmarks.report.tables import NONE, Table
 from benchmarks.scoring.checks import checked
 from benchmarks.scoring.comparison import Comparison, compare, ranks
 from benchmarks.scoring.judge import JudgedRun, Rules
-from benchmarks.scoring.report import report
+from benchmarks.scoring.report import OFFSET_UNITS, report
 from benchmarks.scoring.summary import SubjectSummary, summarise
-from benchmarks.scoring.tables import ordered, score_tables
+from benchmarks.scoring.tables import STANDS_OUT, ordered, score_tables
 from benchmarks.scoring.verdicts import verdict
+from benchmarks.trajectory.offsets import NAMES
 from estimators.room import Room
 
 HEADLINES = 6
@@ -162,6 +163,30 @@ def problems(result: Result) -> list[str]:
             *(f"{s.name}: not scored in {run}: {why}" for run, why in s.why_not.items()),
         )
     ]
+
+
+def offset_lines(result: Result) -> list[str]:
+    """Which clock offsets, lever arms and frames stand out, and which the runs do not show, by subject."""
+    lines = []
+    for s in result.summaries:
+        score = s.by_reference[result.reference]
+        found = score.offsets if score else None
+        if found is None:
+            continue
+        out = [
+            f"{name.replace('_', ' ')} {factor * value:.1f} ± {factor * error:.1f} {unit}"
+            for name, value, error, seen in zip(
+                NAMES, found.values, found.errors, found.observable, strict=True
+            )
+            for unit, factor in (OFFSET_UNITS[name],)
+            if seen and abs(value) > STANDS_OUT * error
+        ]
+        if out:
+            lines.append(f"{s.name}: beyond {STANDS_OUT:g} standard errors: {', '.join(out)}")
+        if found.unseen:
+            unseen = ", ".join(name.replace("_", " ") for name in found.unseen)
+            lines.append(f"{s.name}: not observable (by this path, or for its drift): {unseen}")
+    return lines
 
 
 def _facts(result: Result) -> list[dict[str, str]]:

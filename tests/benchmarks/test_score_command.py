@@ -95,6 +95,10 @@ def test_a_planted_clock_offset_and_lever_arm_are_found_on_the_figure_of_eight(c
     offsets = json.loads((tmp_path / "out/score/report.json").read_text())["subjects"]["it"]["offsets"]
 
     assert offsets["not_observable"] == []
+    assert re.search(
+        r"^it: beyond 3 standard errors: clock (19|20)\.\d ± 0\.\d ms, lever x -(49|50)\.\d ± ", said, re.M
+    )
+    assert "not observable" not in said
     for name, unit, planted in (
         ("clock", "ms", 20), ("lever_x", "mm", -50), ("lever_y", "mm", 0), ("lever_yaw", "deg", 0),
     ):  # fmt: skip
@@ -155,3 +159,4 @@ def test_files_alone_are_compared_with_a_file(command, tmp_path):
     assert found["verdicts"]["position"] == "insufficient"
     assert found["estimate_vs_true"] is None
     assert {"lever_x", "frame_x"} <= set(found["offsets"]["not_observable"])  # it goes straight on
+    assert re.search(r"^a: not observable .*lever x", said, re.M)
