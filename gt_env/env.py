@@ -17,7 +17,7 @@ from estimators.poses import Array, Pose2
 from estimators.room import Room
 from gt_env.config import ConfigLike, EnvConfig, load_config
 from gt_env.config.onboard import robot_calibration
-from gt_env.config.schema import pose_problem
+from gt_env.config.problems import pose_problem
 from gt_env.render.overview import Overview
 from gt_env.render.station_map import Goal
 from gt_env.render.window import available as window_available

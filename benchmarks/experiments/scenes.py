@@ -15,7 +15,7 @@ from estimators.calibration import DEG, Calibration
 from estimators.messages import STATION_LRF, ImageFrame, LaserScan
 from estimators.poses import Pose2
 from gt_env.config import EnvConfig
-from gt_env.config.schema import pose_problem
+from gt_env.config.problems import pose_problem
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)

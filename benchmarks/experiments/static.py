@@ -10,7 +10,7 @@ from benchmarks.published import TEST_POINTS
 from estimators.errors import ConfigError
 from estimators.poses import Pose2
 from gt_env.config import EnvConfig
-from gt_env.config.schema import pose_problem
+from gt_env.config.problems import pose_problem
 
 
 def static_points(config: EnvConfig) -> dict[str, Pose2]:

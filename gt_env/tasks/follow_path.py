@@ -12,7 +12,7 @@ from estimators.errors import ConfigError
 from estimators.poses import Array, Pose2
 from estimators.room import Room
 from gt_env.config import EnvConfig
-from gt_env.config.schema import pose_problem
+from gt_env.config.problems import pose_problem
 from gt_env.tasks.features import NEAR, POLAR, in_frame, polar_features
 from gt_env.tasks.paths import POINTS, Path, PathFollower, sample_path
 from gt_env.tasks.sampling import check_points

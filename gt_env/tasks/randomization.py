@@ -12,7 +12,7 @@ from estimators.errors import ConfigError
 from estimators.poses import Array
 from gt_env.config import EnvConfig
 from gt_env.config.merging import merge
-from gt_env.config.schema import pose_problem
+from gt_env.config.problems import pose_problem
 from gt_env.config.sections import RoomConfig
 from gt_env.config.sections.task import RandomizationConfig
 from gt_env.tasks.sampling import sample_point
