@@ -27,6 +27,8 @@ WHIRL: Final = 2 * math.pi
 """Turn rate on the spot [rad/s]."""
 SPIN_UP: Final = 0.5
 """Time from rest to that and back [s]."""
+ASIDE: Final = 0.1
+"""How far that spot may lie from the usual one along either axis [m]: some beams and some twenty pixels."""
 HEADROOM: Final = 1.5
 """Wheels must turn faster than the speed takes: the outer one in curves, and to catch up."""
 SECONDS: Final = 25.0
@@ -67,7 +69,7 @@ def stress_runs(
     if turning_radius(config.robot):
         return runs
     nimble = _able(config, 0.5 * WHIRL * config.robot.track)
-    runs["whirl"] = _courses(nimble, methods, [_rounds(nimble)] * len(whirl), whirl)
+    runs["whirl"] = _courses(nimble, methods, [_rounds(nimble, of) for of in whirl], whirl)
     return runs
 
 
@@ -94,12 +96,16 @@ def _able(config: EnvConfig, speed: float) -> EnvConfig:
     return load_config(config, {"robot.max_wheel_speed": max(needed, config.robot.max_wheel_speed)})
 
 
-def _rounds(config: EnvConfig) -> Array:
-    """Poses (N, 3) of turns on the spot, to one side, a pause of a second, and back."""
+def _rounds(config: EnvConfig, seed: int) -> Array:
+    """Poses (N, 3) of turns on the spot, to one side, a pause of a second, and back.
+
+    Every run has a place of its own: beams and pixels meet a target that stays there always in the same way.
+    """
     start = start_pose("spin", config)
+    x, y = np.array([start.x, start.y]) + np.random.default_rng(seed).uniform(-ASIDE, ASIDE, 2)
     times = np.linspace(0.0, SECONDS, 1 + round(SECONDS / config.timing.step))
     end = 0.5 * (SECONDS - 1.0)
     knots = np.array([0.0, SPIN_UP, end - SPIN_UP, end])
     rate = np.interp(times, [*knots, *(knots + end + 1.0)], WHIRL * np.array([0, 1, 1, 0, 0, -1, -1, 0]))
     turned = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(times) * (rate[1:] + rate[:-1]))])
-    return np.column_stack([np.full_like(times, start.x), np.full_like(times, start.y), start.yaw + turned])
+    return np.column_stack([np.full_like(times, x), np.full_like(times, y), start.yaw + turned])

@@ -94,6 +94,8 @@ def test_hard_drives_are_as_hard_as_they_say():
     rates = np.diff(whirl.poses[:, 2]) / step
     assert np.degrees([rates.min(), rates.max()]) == pytest.approx([-360, 360], rel=0.01)
     assert np.ptp(whirl.poses[:, :2], axis=0) == pytest.approx([0, 0])
+    # What one and the same place does to pixels and beams would otherwise be in every run.
+    assert len({tuple(course.poses[0, :2]) for course in runs["whirl"]}) == 6
     speeds = np.hypot(*np.diff(fast.poses[:, :2], axis=0).T) / step
     assert speeds.max() == pytest.approx(1.2, rel=0.01)
     assert np.hypot(fast.poses[:, 0], fast.poses[:, 1] - 0.1).min() >= 2
