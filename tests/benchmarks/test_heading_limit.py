@@ -1,22 +1,13 @@
 """The limit of a heading at rest: exact silhouettes, and what no estimator undercuts."""
 
 import dataclasses
-import importlib.util
 import math
-import pathlib
-import sys
 
+import marker_picture as pictures
 import numpy as np
 import pytest
 
 from benchmarks.heading_limit import HIDDEN, Silhouettes, heading_limit
-
-_spec = importlib.util.spec_from_file_location(
-    "marker_picture", pathlib.Path(__file__).parents[1] / "estimators" / "marker_picture.py"
-)
-pictures = sys.modules.get("marker_picture") or importlib.util.module_from_spec(_spec)
-if "marker_picture" not in sys.modules:
-    _spec.loader.exec_module(pictures)
 
 CALIBRATION = pictures.room_calibration()
 

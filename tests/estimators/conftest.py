@@ -1,11 +1,12 @@
 """Synthetic measurements: what an ideal station would see, without a simulator."""
 
-import importlib.util
+import dataclasses
 import math
-from pathlib import Path
 
+import localizer_world
 import numpy as np
 import pytest
+from fused_messages import CALIBRATION, drive
 
 from estimators import Calibration, ImageFrame, LaserScan, Room
 
@@ -74,9 +75,22 @@ def draw_target():
 @pytest.fixture(scope="session")
 def world():
     """The module `localizer_world`: a robot with a lidar, without a simulator."""
-    spec = importlib.util.spec_from_file_location(
-        "localizer_world", Path(__file__).with_name("localizer_world.py")
-    )
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return localizer_world
+
+
+@pytest.fixture
+def scan(ideal_scan):
+    """A function that ranges a target at x, y with the LRF's noise."""
+
+    def make(target, stamp, calibration=CALIBRATION, **kwargs):
+        ideal = ideal_scan(calibration, target, stamp=stamp, **kwargs)
+        noise = np.random.default_rng(round(1000 * stamp)).normal(0, 0.03, ideal.ranges.shape)
+        return dataclasses.replace(ideal, ranges=ideal.ranges + noise.astype(np.float32))
+
+    return make
+
+
+@pytest.fixture
+def driven(scan):
+    """Poses by stamp, and messages, of a robot that drives straight on for a second."""
+    return drive(scan)

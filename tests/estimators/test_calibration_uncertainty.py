@@ -1,10 +1,9 @@
 """What a calibration leaves open is part of what estimators state, and changes nothing else."""
 
 import dataclasses
-import importlib.util
 import math
-import pathlib
 
+import marker_picture as pictures
 import numpy as np
 import pytest
 
@@ -12,12 +11,6 @@ from estimators import ConfigError, FusedEstimator, ImageFrame, Pose2, wrap_angl
 from estimators.self_calibration.quantities import NAMES, QUANTITIES, Q, values_of, with_vector
 from estimators.self_calibration.uncertainty import correlations_of, covariance_of
 from estimators.smooth import smooth
-
-_spec = importlib.util.spec_from_file_location(
-    "marker_picture", pathlib.Path(__file__).with_name("marker_picture.py")
-)
-pictures = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(pictures)
 
 CALIBRATION = pictures.room_calibration()
 STEP = {"m": 3e-4, "rad": 1e-3, "s": 1e-3}

@@ -1,13 +1,13 @@
 """The fused method on synthetic scans and pictures: what it does when things do not go as they should."""
 
 import dataclasses
-import importlib.util
 import math
 import pathlib
 import sys
 
 import numpy as np
 import pytest
+from fused_messages import CALIBRATION, drive, feed, frame, off
 
 from estimators import (
     FusedEstimator,
@@ -17,62 +17,7 @@ from estimators import (
     MeasurementError,
     Pose2,
     ground_truth_estimator,
-    wrap_angle,
 )
-
-_spec = importlib.util.spec_from_file_location(
-    "marker_picture", pathlib.Path(__file__).with_name("marker_picture.py")
-)
-pictures = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(pictures)
-
-CALIBRATION = pictures.room_calibration()
-
-
-@pytest.fixture
-def scan(ideal_scan):
-    """A function that ranges a target at x, y with the LRF's noise."""
-
-    def make(target, stamp, calibration=CALIBRATION, **kwargs):
-        ideal = ideal_scan(calibration, target, stamp=stamp, **kwargs)
-        noise = np.random.default_rng(round(1000 * stamp)).normal(0, 0.03, ideal.ranges.shape)
-        return dataclasses.replace(ideal, ranges=ideal.ranges + noise.astype(np.float32))
-
-    return make
-
-
-def frame(pose, stamp, calibration=CALIBRATION):
-    picture = pictures.frame(calibration, pose, samples=(4, 1), seed=round(1000 * stamp))
-    return ImageFrame(stamp=stamp, rgb=picture.rgb, pan=picture.pan)
-
-
-def feed(estimator, messages):
-    answers = [estimator.update(m) for m in messages]
-    return [a for a in answers if a is not None]
-
-
-def drive(scan, until=1.0, speed=0.4):
-    """Poses by stamp, and messages in the order of their stamps, of a robot that drives straight on."""
-    poses = {}
-    messages = []
-    for i in range(round(until * 20)):
-        t = i / 20
-        poses[t] = (-1.0 + speed * t * math.cos(0.3), 2.0 + speed * t * math.sin(0.3), 0.3)
-        if i % 2 == 0:
-            messages.append(scan(poses[t][:2], t))
-        messages.append(frame(poses[t], t))
-    return poses, messages
-
-
-@pytest.fixture
-def driven(scan):
-    return drive(scan)
-
-
-def off(estimate, pose):
-    error = estimate.pose.as_array() - pose
-    error[2] = wrap_angle(float(error[2]))
-    return error
 
 
 @pytest.mark.parametrize("motion", ["unicycle", "holonomic"])
@@ -89,78 +34,6 @@ def test_it_follows_a_driving_robot_from_the_first_scan_on(driven, motion):
     assert math.hypot(*error[:2]) < 0.015
     assert abs(error[2]) < math.radians(0.5)
     assert error @ np.linalg.solve(last.covariance, error) < 16
-
-
-def test_late_messages_lead_to_the_same_answer_as_punctual_ones(driven):
-    _, messages = driven
-    shuffled = messages[:3]
-    for i in range(3, len(messages) - 3, 3):  # each third message comes after the two that follow it
-        shuffled += [messages[i + 1], messages[i + 2], messages[i]]
-    left = [m for m in messages if m not in shuffled]
-    one, other = FusedEstimator(CALIBRATION), FusedEstimator(CALIBRATION)
-    a, b = feed(one, messages)[-1], feed(other, shuffled + left)[-1]
-
-    assert a.stamp == b.stamp
-    # Where a measurement is looked for, and so its own noise, depends a little on what came before.
-    assert off(a, b.pose.as_array()) == pytest.approx([0, 0, 0], abs=2e-3)
-    assert b.covariance == pytest.approx(a.covariance, rel=0.1, abs=1e-7)
-
-
-def test_repeated_messages_count_once(driven):
-    _, messages = driven
-    one, other = FusedEstimator(CALIBRATION), FusedEstimator(CALIBRATION)
-    a = feed(one, messages)[-1]
-    b = feed(other, [m for m in messages for _ in range(3)])[-1]
-
-    assert np.array_equal(a.covariance, b.covariance)
-    assert a.pose == b.pose
-
-
-def test_what_is_older_than_the_memory_is_ignored(driven, scan):
-    _, messages = driven
-    estimator = FusedEstimator(CALIBRATION)
-    feed(estimator, messages)
-    late = messages[-1].stamp - 0.6
-
-    assert estimator.update(dataclasses.replace(scan((3.0, 1.0), 0.0), stamp=late - 0.01)) is None
-    assert estimator.update(frame((3.0, 1.0, 0.0), 0.0)) is None
-
-
-def test_a_stamp_far_ahead_does_not_make_the_rest_too_old(driven, scan):
-    _, messages = driven
-    one, other = FusedEstimator(CALIBRATION), FusedEstimator(CALIBRATION)
-    stray = dataclasses.replace(scan((3.0, 1.0), 0.0), stamp=1e9)
-    a = feed(one, messages)
-    b = feed(other, [m for message in messages for m in (message, stray)])
-
-    assert [tuple(x.pose) for x in a] == [tuple(x.pose) for x in b]
-
-
-@pytest.mark.parametrize("jump", [100.0, -100.0])
-def test_a_clock_that_is_set_anew_is_believed_once_messages_agree_on_it(scan, jump):
-    estimator = FusedEstimator(CALIBRATION, camera=False)
-    here, there = (-1.0, 2.0), (2.0, 2.5)
-    for i in range(10):
-        estimator.update(scan(here, 200 + i / 10))
-    answers = [estimator.update(scan(there, 200 + jump + i / 10)) for i in range(15)]
-
-    assert answers[0] is None
-    assert answers[-1].valid
-    assert answers[-1].stamp == pytest.approx(200 + jump + 1.4)
-    assert off(answers[-1], (*there, 0.0))[:2] == pytest.approx([0, 0], abs=0.03)
-
-
-def test_a_late_burst_does_not_start_time_anew(driven, scan):
-    _, messages = driven
-    estimator = FusedEstimator(CALIBRATION)
-    last = feed(
-        estimator, [dataclasses.replace(scan((0.5, 2.0), i / 10), stamp=50 + i / 10) for i in range(5)]
-    )
-    burst = [m for m in messages if m.stamp < 0.4]
-
-    assert feed(estimator, burst) == []
-    again = estimator.update(scan((0.5, 2.0), 50.5))
-    assert again.stamp > last[-1].stamp
 
 
 @pytest.mark.parametrize("bad", [math.nan, 0.0, -1.0, math.inf, -math.inf])
@@ -266,16 +139,6 @@ def test_a_swept_scan_is_stamped_when_it_met_the_target(ideal_scan):
         answer = estimator.update(s)
     assert answer.stamp == pytest.approx(t + beam * spread, abs=0.002)
     assert off(answer, (-1.0 + speed * answer.stamp, 2.0, 0.0))[:2] == pytest.approx([0, 0], abs=0.01)
-
-
-def test_reset_forgets_everything(driven):
-    _, messages = driven
-    estimator = FusedEstimator(CALIBRATION)
-    first = feed(estimator, messages)
-    estimator.reset()
-    again = feed(estimator, messages)
-
-    assert [tuple(a.pose) for a in first] == [tuple(a.pose) for a in again]
 
 
 def test_neither_simulator_nor_gymnasium_is_needed():

@@ -1,20 +1,13 @@
 """A target that turns so slowly that samples stay the same for many frames: it does not rest, and nobody may say so."""
 
 import dataclasses
-import importlib.util
 import math
-import pathlib
 
+import marker_picture as pictures
 import numpy as np
 
 from estimators import FusedEstimator, ImageFrame, wrap_angle
 from estimators.smooth import looking_back
-
-_spec = importlib.util.spec_from_file_location(
-    "marker_picture", pathlib.Path(__file__).with_name("marker_picture.py")
-)
-pictures = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(pictures)
 
 CALIBRATION = pictures.room_calibration()
 SLOWLY = math.radians(8.0)

@@ -1,19 +1,12 @@
 import dataclasses
-import importlib.util
 import math
-import pathlib
 
+import marker_picture as pictures
 import numpy as np
 import pytest
 
 from estimators import FusedEstimator, ImageFrame, WheelOdometry, wrap_angle
 from estimators.smooth import smooth
-
-_spec = importlib.util.spec_from_file_location(
-    "marker_picture", pathlib.Path(__file__).with_name("marker_picture.py")
-)
-pictures = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(pictures)
 
 CALIBRATION = pictures.room_calibration()
 

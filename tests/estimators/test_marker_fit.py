@@ -1,21 +1,14 @@
 """Bearing and yaw from pictures whose truth is known: accuracy, honesty, and the laws that must hold."""
 
 import dataclasses
-import importlib.util
 import math
-import pathlib
 
+import marker_picture as pictures
 import numpy as np
 import pytest
 
 from estimators import CameraCalibration, ImageFrame, TargetGeometry, wrap_angle
 from estimators.marker_fit import MarkerFit
-
-_spec = importlib.util.spec_from_file_location(
-    "marker_picture", pathlib.Path(__file__).with_name("marker_picture.py")
-)
-pictures = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(pictures)
 
 SMALL = 0.005**2 * np.eye(2)
 DEG = math.pi / 180

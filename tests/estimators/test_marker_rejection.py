@@ -1,21 +1,14 @@
 """What is not the whole target, seen clearly, gives nothing; a frame of another camera is an error."""
 
-import importlib.util
 import math
-import pathlib
 
+import marker_picture as pictures
 import numpy as np
 import pytest
 
 from estimators import ImageFrame
 from estimators.errors import MeasurementError
 from estimators.marker_fit import MarkerFit
-
-_spec = importlib.util.spec_from_file_location(
-    "marker_picture", pathlib.Path(__file__).with_name("marker_picture.py")
-)
-pictures = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(pictures)
 
 SMALL = 0.005**2 * np.eye(2)
 POSE = (0.0, 2.0, 0.4)
