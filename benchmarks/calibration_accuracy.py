@@ -25,6 +25,8 @@ RESTED: Final = 9.0
 """A target at rest is judged from here on, for a second [s]."""
 MOVING: Final = 30.0
 """Duration of the drives that accuracy is measured on [s]."""
+TURNING: Final = 15.0
+"""The same on the spot, a little less than the author's two turns each way take [s]."""
 
 
 class Accuracy:
@@ -41,16 +43,21 @@ class Accuracy:
         self._moving = [
             driven(config, drive, MOVING, seed + i) for i, drive in enumerate((EIGHT_PATH, "tour"))
         ]
+        self._turning = [driven(config, "spin", TURNING, seed + 2)]
         self._resting = [
             recorded(
-                config, Pose2(x=p.x, y=p.y, yaw=float(rng.uniform(-math.pi, math.pi))), still, seed + 2 + i
+                config, Pose2(x=p.x, y=p.y, yaw=float(rng.uniform(-math.pi, math.pi))), still, seed + 3 + i
             )
             for i, p in enumerate(static_points(config).values())
         ]
 
-    def errors(self, calibration: Calibration) -> tuple[Array, Array]:
-        """Errors (N, 3) [m, m, rad] moving and at rest; NaN without a valid answer."""
-        return _errors(self._moving, calibration, SETTLED), _errors(self._resting, calibration, RESTED)
+    def errors(self, calibration: Calibration) -> dict[str, Array]:
+        """Errors (N, 3) [m, m, rad] by situation; NaN without a valid answer."""
+        return {
+            "moving": _errors(self._moving, calibration, SETTLED),
+            "on the spot": _errors(self._turning, calibration, SETTLED),
+            "at rest": _errors(self._resting, calibration, RESTED),
+        }
 
 
 def _errors(recordings: Sequence[Recording], calibration: Calibration, after: float) -> Array:
@@ -79,15 +86,15 @@ def compare(spoilt: EnvConfig, calibrations: Sequence[Calibration], seed: int) -
     runs the square errors are the perfect calibration's and the square differences, together.
     """
     names = ("as believed", "perfect", "calibrated")
-    errors: dict[str, list[tuple[Array, Array]]] = {name: [] for name in names}
+    errors: dict[str, list[dict[str, Array]]] = {name: [] for name in names}
     for i, found in enumerate(tracked(calibrations, "Accuracy")):
         runs = Accuracy(spoilt, seed + 100 * i)
         believed, perfect = spoilt.believed().calibration(), spoilt.calibration()
         for name, calibration in zip(names, (believed, perfect, found), strict=True):
             errors[name].append(runs.errors(calibration))
-    for k, situation in enumerate(("moving", "at rest")):
+    for situation in errors["perfect"][0]:
         typer.echo(f"{situation + ':':24s}RMSE [mm], heading MAE [deg]")
-        of = {name: [both[k] for both in found] for name, found in errors.items()}
+        of = {name: [each[situation] for each in found] for name, found in errors.items()}
         for name in names:
             _line(name, sizes(of[name]))
         apart = [c - p for c, p in zip(of["calibrated"], of["perfect"], strict=True)]
