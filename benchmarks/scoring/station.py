@@ -19,10 +19,10 @@ SPACING: Final = 0.1
 """Time between their samples [s]."""
 
 
-DOUBT: Final = (2.306 / 1.960) ** 2
+DOUBT: Final = (2.009 / 1.960) ** 2
 """By how much the variance of a reference's errors may exceed the stated one, as intervals allow for. A standard
-uncertainty that is itself known to a quarter has eight degrees of freedom (GUM, JCGM 100:2008, G.4.2), and Student's t
-with so many widens a 95 % interval by 2.306 over 1.960."""
+uncertainty that is itself known to a tenth, as the station's is by `variance_over_stated` in `checks`, has 50 degrees
+of freedom (GUM, JCGM 100:2008, G.4.2), and Student's t with so many widens a 95 % interval by 2.009 over 1.960."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -42,8 +42,8 @@ class ErrorModel:
 
 
 REFERENCES: Final[dict[str, ErrorModel]] = {
-    "fused": ErrorModel(position_time=6.5, yaw_time=0.1),
-    "smooth": ErrorModel(position_time=10.0, yaw_time=0.1),
+    "fused": ErrorModel(position_time=5.5, yaw_time=0.1),
+    "smooth": ErrorModel(position_time=8.0, yaw_time=0.1),
     "file": ErrorModel(position_time=5.0, yaw_time=5.0),  # errors that last are the careful assumption
 }
 """By method, and of a file: `lasts_s` of `checks` in `report.json`; docs/scoring.md has the command."""
