@@ -1,4 +1,4 @@
-"""How well any estimator can place the target from one scan: the limit that ours are measured against."""
+"""How well any estimator can place the target from scans: the limit that ours are measured against."""
 
 from __future__ import annotations
 
@@ -38,11 +38,15 @@ def one_scan_limit(
     bearings: Array,
     position: Sequence[float],
     *,
+    scans: int = 1,
     samples: int = SAMPLES,
     radial_patch: float = RADIAL_PATCH,
     seed: int = 0,
 ) -> OneScanLimit:
     """Least root mean square error of a position from one scan (the Bayesian, or MMSE, bound).
+
+    Several scans of a target at rest are as good as a single one of their mean ranges: with Gaussian noise these are
+    all that the likelihood of the scans together depends on, beams that miss included.
 
     Nothing beats the posterior's mean, whose mean square error is the posterior's covariance, averaged over
     what may happen. The prior is flat near the target, the likelihood that of the noise alone, without a cap:
@@ -60,6 +64,7 @@ def one_scan_limit(
         calibration: Of room, LRF and target, as they are.
         bearings: (N,) of the beams in the LRF's frame, evenly spaced [rad].
         position: x, y of the target's centre [m].
+        scans: How many there are of the target at rest.
         samples: How many positions.
         radial_patch: Half the patch's depth in radii of the target.
         seed: Of the noise.
@@ -68,9 +73,9 @@ def one_scan_limit(
         ConfigError: If the LRF has no noise, or the target is not seen.
     """
     lrf, radius = calibration.lrf, calibration.target.radius
-    sigma = lrf.noise_sigma
-    if sigma <= 0:
-        raise ConfigError(f"lrf.noise_sigma = {sigma}: must be positive, else there is no limit")
+    if lrf.noise_sigma <= 0:
+        raise ConfigError(f"lrf.noise_sigma = {lrf.noise_sigma}: must be positive, else there is no limit")
+    sigma = lrf.noise_sigma / math.sqrt(scans)
     dx, dy = position[0] - lrf.pose.x, position[1] - lrf.pose.y
     middle, towards = math.hypot(dx, dy), math.atan2(dy, dx)
     walls, _ = calibration.room.cast((lrf.pose.x, lrf.pose.y), bearings + lrf.pose.yaw)

@@ -56,21 +56,21 @@ class ScanFixes:
 
     Attributes:
         limit: Of one scan.
+        joint_limit: Of `TOGETHER` scans of a target at rest; None if that was not asked.
         axes: (2, 2) unit vectors along and across the line of sight, in rows.
         single: (N, 2) of one scan [m]; NaN where no target was found.
         single_nees: (N,) normalised by the fixes' covariances.
         joint: (G, 2) of `TOGETHER` scans [m].
         joint_nees: (G,) likewise.
-        joint_square: (G,) square distances to the truth that their covariances state [m^2].
     """
 
     limit: OneScanLimit
+    joint_limit: OneScanLimit | None
     axes: Array
     single: Array
     single_nees: Array
     joint: Array
     joint_nees: Array
-    joint_square: Array
 
 
 def scan_runs(
@@ -122,7 +122,7 @@ def measure_scans(run: ScanRun, on_step: Callable[[], None] | None = None) -> Sc
     origin = np.array([run.config.lrf.position[0], run.config.lrf.position[1]])
     along = (np.array(run.point) - origin) / math.dist(run.point, origin)
     axes = np.array([along, [-along[1], along[0]]])
-    single, single_nees, joint, joint_nees, joint_square = [], [], [], [], []
+    single, single_nees, joint, joint_nees = [], [], [], []
     for i, position in enumerate(_positions(run, run.singles, origin)):
         error, square = _error(model.measure(take(position)), position)
         single.append(error)
@@ -134,17 +134,17 @@ def measure_scans(run: ScanRun, on_step: Callable[[], None] | None = None) -> Sc
         error, square = _error(fix, position)
         joint.append(error)
         joint_nees.append(square)
-        joint_square.append(math.nan if fix is None else float(np.trace(fix.covariance)))
         if on_step is not None:
             on_step()
+    station = run.config.calibration(), beam_bearings(run.config.lrf), run.point
     return ScanFixes(
-        limit=one_scan_limit(run.config.calibration(), beam_bearings(run.config.lrf), run.point),
+        limit=one_scan_limit(*station),
+        joint_limit=one_scan_limit(*station, scans=TOGETHER) if run.groups else None,
         axes=axes,
         single=np.array(single).reshape(-1, 2),
         single_nees=np.array(single_nees),
         joint=np.array(joint).reshape(-1, 2),
         joint_nees=np.array(joint_nees),
-        joint_square=np.array(joint_square),
     )
 
 

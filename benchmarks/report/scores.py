@@ -51,7 +51,7 @@ class ScanScore:
         nees: Mean over one scan's fixes; 2 for an honest covariance.
         joint_rmse: Likewise of many scans of a target at rest together [m].
         joint_nees: Likewise.
-        joint_stated: What their covariances say that it should be [m]; with a NEES of 2 it is the limit.
+        joint_limit: The least that it can be [m].
         n: How many single scans.
         groups: How many groups of scans.
     """
@@ -63,7 +63,7 @@ class ScanScore:
     nees: float | None
     joint_rmse: float | None
     joint_nees: float | None
-    joint_stated: float | None
+    joint_limit: float | None
     n: int
     groups: int
 
@@ -188,7 +188,6 @@ def _one_sample(rollout: Rollout, rng: np.random.Generator) -> int:
 
 def scan_score(fixes: ScanFixes) -> ScanScore:
     """Of fixes around one point."""
-    stated = _finite_mean(fixes.joint_square)
     return ScanScore(
         limit=fixes.limit,
         axes=fixes.axes,
@@ -197,7 +196,7 @@ def scan_score(fixes: ScanFixes) -> ScanScore:
         nees=_finite_mean(fixes.single_nees),
         joint_rmse=_rms(fixes.joint),
         joint_nees=_finite_mean(fixes.joint_nees),
-        joint_stated=None if stated is None else float(np.sqrt(stated)),
+        joint_limit=fixes.joint_limit and fixes.joint_limit.rmse,
         n=len(fixes.single),
         groups=len(fixes.joint),
     )

@@ -114,7 +114,7 @@ def limit_json(s: ScanScore) -> dict[str, Any]:
             "n": s.groups,
             "scans": TOGETHER,
             "rmse_xy_mm": times(s.joint_rmse, MM),
-            "stated_mm": times(s.joint_stated, MM),
+            "limit_mm": times(s.joint_limit, MM),
             "nees": s.joint_nees,
         },
     }

@@ -103,7 +103,7 @@ def limit_table(scores: Scores) -> Table:
             number(s.over_limit, 3),
             number(s.nees, 2),
             number(times(s.joint_rmse, MM), 2),
-            number(times(s.joint_stated, MM), 2),
+            number(times(s.joint_limit, MM), 2),
             number(s.joint_nees, 2),
         )
         for point, s in scores.scans.items()
@@ -118,7 +118,7 @@ def limit_table(scores: Scores) -> Table:
         number(max((s.over_limit for s in of if s.over_limit is not None), default=None), 3),
         NONE,
         number(times(root_mean_square([s.joint_rmse for s in of]), MM), 2),
-        number(times(root_mean_square([s.joint_stated for s in of]), MM), 2),
+        number(times(root_mean_square([s.joint_limit for s in of]), MM), 2),
         NONE,
     )
     first = next(iter(of))
@@ -126,15 +126,15 @@ def limit_table(scores: Scores) -> Table:
         title="One scan beside its limit, and many together [mm]",
         head=(
             "point", "limit along", "limit across", "limit RMSE", "RMSE", "over limit", "NEES",
-            f"{TOGETHER} scans RMSE", "stated", "NEES",
+            f"{TOGETHER} scans RMSE", "limit", "NEES",
         ),
         rows=(*rows, total),
         totals=1,
         note="The limit is the least root mean square error that any estimator can have: the mean covariance of the "
         "posterior, given walls, noise and radius (along and across the line of sight). "
         f"{first.n} scans a point of targets placed evenly over one beam spacing, and {first.groups} times "
-        f"{TOGETHER} scans of a target at rest; stated: the RMSE that their covariances expect, "
-        "which with a NEES of 2 is the limit. NEES: 2 for an honest covariance. Last row: root mean squares, and "
+        f"{TOGETHER} scans of a target at rest, which have a limit of their own. NEES: 2 for an honest "
+        "covariance. Last row: root mean squares, and "
         "the worst point over its limit.",
         section="limits",
     )  # fmt: skip

@@ -40,12 +40,12 @@ def fixes(run, rng):
     error = rng.normal(0, 0.008, (run.singles, 2))
     return ScanFixes(
         limit=OneScanLimit(0.008, 0.008),
+        joint_limit=OneScanLimit(0.001, 0.001),
         axes=np.eye(2),
         single=error,
         single_nees=np.sum(error**2, axis=1) / 0.008**2,
         joint=rng.normal(0, 0.001, (run.groups, 2)),
         joint_nees=np.full(run.groups, 2.0),
-        joint_square=np.full(run.groups, 2e-6),
     )
 
 

@@ -132,3 +132,30 @@ def test_one_scan_reaches_its_limit_elsewhere(name):
     ratio, nees = compare(load_config(config), point, 4000)
     assert ratio <= 1.15
     assert nees == pytest.approx(2, abs=0.2)
+
+
+def test_many_scans_together_reach_the_limit_of_many():
+    """Thirty times twenty scans: the mean square error is that of the limit, but for chance."""
+    config, scans, groups = load_config("thesis"), 20, 30
+    point = (TEST_POINTS["D"].x, TEST_POINTS["D"].y)
+    calibration = config.calibration()
+    limit = one_scan_limit(
+        calibration, beam_bearings(config.lrf), point, scans=scans, samples=300, radial_patch=0.0
+    )
+    model = ScanModel(calibration)
+    squares = []
+    for _, place in scans_and_positions(config, point, groups):
+        lrf = LaserRangefinder(config.lrf, config.believed().lrf, make_ranging(config, engine=None))
+        lrf.reset(np.random.default_rng(len(squares)))
+        fix = model.joint([lrf.measure(0.0, (*place, 0.0)) for _ in range(scans)])
+        squares.append(np.sum((fix.position - place) ** 2))
+    low, high = chi2.ppf([0.001, 0.999], groups) / groups
+    assert low < np.mean(squares) / limit.rmse**2 < high
+
+
+def test_scans_of_a_target_at_rest_tell_less_across_than_their_number_promises():
+    """Along the line of sight noise averages out; across, the beams keep meeting the target at the same places."""
+    one = one_scan_limit(Calibration(room=HALL), BEARINGS, (0.0, 3.0), samples=300)
+    many = one_scan_limit(Calibration(room=HALL), BEARINGS, (0.0, 3.0), scans=100, samples=300)
+    assert many.radial_std == pytest.approx(one.radial_std / 10, rel=0.15)
+    assert many.tangential_std > 1.5 * one.tangential_std / 10
