@@ -15,6 +15,8 @@ from benchmarks.steerable import turning_radius
 from estimators.poses import Array
 from gt_env.config import EnvConfig, load_config
 
+COMPARED: Final = ("swept", "slip", "uneven-slip")
+"""Hard drives that are the usual ones but for one thing."""
 SWEEP: Final = 0.5
 """Share of the time between scans that a scan takes."""
 SLIP: Final = 0.05

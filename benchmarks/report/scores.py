@@ -11,6 +11,7 @@ import numpy as np
 from benchmarks.consistency import Consistency, Whiteness, consistency, whiteness
 from benchmarks.experiments.moving import BLIND_METHODS, TRAVELS
 from benchmarks.experiments.scans import ScanFixes
+from benchmarks.experiments.stress import COMPARED
 from benchmarks.hindsight import HINDSIGHT, KINDS
 from benchmarks.limits import OneScanLimit
 from benchmarks.metrics import (
@@ -22,6 +23,7 @@ from benchmarks.metrics import (
     score,
     spread,
 )
+from benchmarks.pairs import More, more
 from benchmarks.rollout import Rollout, joined_tracks, picked
 from benchmarks.validation import Validation
 from estimators.poses import Array
@@ -93,6 +95,7 @@ class Scores:
         whiteness: Of innovations while driving, by online method and then by kind of reading.
         stress: By method and then by what was hard.
         stress_honesty: By what was hard and then by method that states a covariance.
+        stress_more: By what was hard and then by method, beside the usual drives.
     """
 
     methods: tuple[str, ...]
@@ -108,6 +111,7 @@ class Scores:
     whiteness: dict[str, dict[str, Whiteness]]
     stress: dict[str, dict[str, Score]]
     stress_honesty: dict[str, dict[str, Consistency]]
+    stress_more: dict[str, dict[str, More]]
 
     def static_mae(self, method: str) -> Triple:
         """Mean absolute error averaged over the test points [m, m, rad], as in 5.1."""
@@ -152,7 +156,17 @@ def score_validation(validation: Validation) -> Scores:
         whiteness={m: {kind: w for kind, w in of.items() if w is not None} for m, of in white.items()},
         stress={m: {kind: together(of, m) for kind, of in v.stress.items()} for m in methods},
         stress_honesty=hard,
+        stress_more={kind: _more(v.stress, kind, methods) for kind in COMPARED if kind in v.stress},
     )
+
+
+def _more(stress: dict[str, tuple[Rollout, ...]], kind: str, methods: Sequence[str]) -> dict[str, More]:
+    """By method; of one that a run failed of there is nothing."""
+    usual = stress.get("usual", ())
+    found = {
+        m: more([r.tracks[m] for r in stress[kind]], [r.tracks[m] for r in usual]) for m in methods if usual
+    }
+    return {m: of for m, of in found.items() if of is not None}
 
 
 def honesty(

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from benchmarks.experiments.stress import SECONDS
+from benchmarks.pairs import More
 from benchmarks.report.cells import SCORED, honest_cells, honest_note, score_cells
-from benchmarks.report.scores import Scores, times
-from benchmarks.report.tables import Table, named, number
+from benchmarks.report.scores import Scores
+from benchmarks.report.tables import NONE, Table, named, number
 
-COMPARED = ("swept", "slip", "uneven-slip")
-"""Hard drives that are the usual ones but for one thing."""
 HARD = (
     "Robots are steered along their way by somebody who sees them. usual: path, tour and figure of eight; swept: the "
     "same with scans that take half their period; slip: with wheels that lose 5 % of their way; uneven-slip: each "
@@ -16,7 +15,10 @@ HARD = (
 )
 WHIRL = "whirl: 360 deg/s on the spot. "
 NO_WHIRL = "nothing on the spot, where this robot cannot turn. "
-COLUMNS = "heading: mean absolute error. more: RMSE beside that of the usual drives. "
+COLUMNS = (
+    "heading: mean absolute error. more: RMSE beside that of the usual drives, with its standard error over pairs of "
+    "runs. "
+)
 
 
 def stress_table(scores: Scores) -> Table:
@@ -24,16 +26,12 @@ def stress_table(scores: Scores) -> Table:
     rows, kinds = [], list(next(iter(scores.stress.values())))
     for kind in kinds:
         for method in scores.methods:
-            s, usual = scores.stress[method][kind], scores.stress[method].get("usual")
-            more = None
-            if kind in COMPARED and usual is not None and s.rmse_xy is not None and usual.rmse_xy:
-                more = s.rmse_xy / usual.rmse_xy - 1
             rows.append(
                 (
                     *named(kind, method, scores),
-                    *score_cells(s)[:-1],
+                    *score_cells(scores.stress[method][kind])[:-1],
                     *honest_cells(scores.stress_honesty[kind].get(method)),
-                    number(times(more, 100), 0),
+                    _more(scores.stress_more.get(kind, {}).get(method)),
                 )
             )
     return Table(
@@ -46,6 +44,13 @@ def stress_table(scores: Scores) -> Table:
         + honest_note(scores.stress_honesty.values()),
         section="stress",
     )
+
+
+def _more(found: More | None) -> str:
+    if found is None:
+        return NONE
+    spare = "" if found.deviation is None else f" ± {number(100 * found.deviation, 0)}"
+    return number(100 * found.share, 0) + spare
 
 
 def _runs(scores: Scores) -> str:

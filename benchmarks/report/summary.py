@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from dataclasses import asdict
 from typing import Any
 
 from benchmarks.experiments.scans import TOGETHER
@@ -33,8 +34,9 @@ def report_json(
     """Strict JSON: `setup`, `static` by method and point, `moving` by drive and method, and what else there is.
 
     `limits` by test point; `rest` by what the camera did, `travels` (all drives that go somewhere together) and
-    `stress` by method, `stress_consistency` as `consistency`; `without_camera` as `moving`; `consistency`,
-    `whiteness`, `cameras`, `rooms`, `robots`; `goals`, the documented targets and whether they are met.
+    `stress` by method, `stress_consistency` as `consistency`, `stress_more` beside the usual drives; `without_camera`
+    as `moving`; `consistency`, `whiteness`, `cameras`, `rooms`, `robots`; `goals`, the documented targets and whether
+    they are met.
 
     `mean`, `std`, `mode` are x, y, yaw in [m, m, deg]; `mae` in [mm, mm, deg]; `valid` is a share of the
     samples; `nees` is null where a method states no covariance, any number where nothing valid was said.
@@ -51,6 +53,7 @@ def report_json(
         "travels": {m: score_json(s) for m, s in travels.items() if s.n},
         "stress": _by_kind(scores.stress),
         "stress_consistency": consistency_json(scores.stress_honesty),
+        "stress_more": {k: {m: asdict(s) for m, s in of.items()} for k, of in scores.stress_more.items()},
         "consistency": consistency_json(scores.consistency),
         "whiteness": whiteness_json(scores),
         "cameras": cameras,

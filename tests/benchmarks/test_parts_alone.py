@@ -45,8 +45,8 @@ def test_it_comes_to_the_same(whole, alone, tmp_path):
         (tmp_path / name).mkdir()
         write_numbers(tmp_path / name, outcome(validation), SETUP)
         found[name] = json.loads((tmp_path / name / "report.json").read_text())
-    assert set(found["alone"]) == {"setup", "goals", "stress", "stress_consistency"}
-    for part in ("stress", "stress_consistency"):
+    assert set(found["alone"]) == {"setup", "goals", "stress", "stress_consistency", "stress_more"}
+    for part in ("stress", "stress_consistency", "stress_more"):
         assert found["alone"][part] == found["whole"][part]
     assert found["alone"]["goals"]
     assert all(goal in found["whole"]["goals"] for goal in found["alone"]["goals"])
