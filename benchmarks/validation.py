@@ -9,6 +9,7 @@ import numpy as np
 from rich.console import Console
 
 from benchmarks.drives import DRIVES
+from benchmarks.effort import FULL, QUICK, Effort
 from benchmarks.engines import Engine
 from benchmarks.experiments.course import Course, follow
 from benchmarks.experiments.moving import FURTHER, blind_runs, moving_runs
@@ -18,7 +19,6 @@ from benchmarks.experiments.scans import ScanFixes, ScanRun, measure_scans, scan
 from benchmarks.experiments.static import static_runs
 from benchmarks.experiments.stress import stress_runs
 from benchmarks.parallel import SweepError
-from benchmarks.published import SAMPLES
 from benchmarks.rollout import Rollout, joined
 from benchmarks.sweep import sweep
 from estimators.errors import ConfigError
@@ -32,57 +32,6 @@ STATIC, REST, DRIVING, STRESS, MOVING, ALONE, SCANS = (
     "static", "at rest", "driving", "stress", "moving", "without camera", "scans"
 )  # fmt: skip
 """Kinds of runs, in messages."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Effort:
-    """How much is simulated.
-
-    Attributes:
-        samples: Per test point.
-        placements: How often the target is placed anew at each; the thesis did it once.
-        single_scans: Per test point, each of a target placed anew.
-        joint_scans: Groups of scans per test point.
-        at_rest: Robots at random poses before a camera at rest.
-        at_rest_dithered: Likewise before one that sweeps.
-        driving: Robots that drive about at random.
-        longest_drive: Time after which the drives are broken off [s]; None for never.
-        stress: How often each of the harder drives is made.
-    """
-
-    samples: int
-    placements: int
-    single_scans: int
-    joint_scans: int
-    at_rest: int
-    at_rest_dithered: int
-    driving: int
-    longest_drive: float | None
-    stress: int
-
-
-FULL = Effort(
-    samples=SAMPLES,
-    placements=10,
-    single_scans=4000,
-    joint_scans=30,
-    at_rest=50,
-    at_rest_dithered=25,
-    driving=50,
-    longest_drive=None,
-    stress=4,
-)
-QUICK = Effort(
-    samples=30,
-    placements=2,
-    single_scans=100,
-    joint_scans=2,
-    at_rest=1,
-    at_rest_dithered=1,
-    driving=2,
-    longest_drive=4.0,
-    stress=1,
-)
 
 
 @dataclass(frozen=True, kw_only=True)
