@@ -159,8 +159,11 @@ def test_looking_back_watches_a_run_beside_the_method_it_looks_back_on():
     assert after.stamp == pytest.approx(online.stamp)
     assert after.valid.all()
     later = online.stamp > 2
-    errors = [np.hypot(*(t.gt_pose - t.true_pose)[later, :2].T).mean() for t in (online, after)]
-    assert errors[1] < errors[0] < 0.02
+    errors = [(t.gt_pose - t.true_pose)[later, :2] for t in (online, after)]
+    assert max(np.hypot(*e.T).mean() for e in errors) < 0.02
+    # What all fixes of a drive this short have in common stays; noise is what looking back takes away.
+    jumps = [np.hypot(*np.diff(e, axis=0).T).mean() for e in errors]
+    assert jumps[1] < 0.5 * jumps[0]
     stamps = found.innovations["fused"]["frame"][:, 0]
     assert len(stamps) > 0.9 * 30 * DRIVE_SECONDS
     assert (np.diff(stamps) > 0).all()
