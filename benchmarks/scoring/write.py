@@ -27,6 +27,8 @@ HEADLINES = 6
 """Subjects at the top of the page."""
 MAPS = 4
 """Runs that are drawn over the map."""
+WORTH_NAMING = {"ms": 1.0, "mm": 1.0, "deg": 0.1}
+"""Smaller offsets are not named beneath the tables: many runs tell them from none, but they are the station's."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -179,7 +181,7 @@ def offset_lines(result: Result) -> list[str]:
                 NAMES, found.values, found.errors, found.observable, strict=True
             )
             for unit, factor in (OFFSET_UNITS[name],)
-            if seen and abs(value) > STANDS_OUT * error
+            if seen and abs(value) > STANDS_OUT * error and factor * abs(value) > WORTH_NAMING[unit]
         ]
         if out:
             lines.append(f"{s.name}: beyond {STANDS_OUT:g} standard errors: {', '.join(out)}")
