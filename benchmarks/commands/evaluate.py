@@ -18,6 +18,7 @@ from benchmarks.commands.options import (
     QuickOption,
     SeedOption,
     SetOption,
+    require_one_of,
     require_report_extra,
     set_values,
 )
@@ -73,6 +74,7 @@ def evaluate(
     from benchmarks.evaluation.report import evaluate_command, findings, report_json, tables
     from benchmarks.evaluation.run import plan_evaluation, run_evaluation
 
+    require_one_of("--estimate", estimate, ESTIMATES)
     place = Engine(name=engine, address=address)
     if not no_figures:
         require_report_extra()
