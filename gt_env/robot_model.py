@@ -15,6 +15,8 @@ from gt_env.config.shape import CASTER_RADIUS, RobotShape, Wheel, robot_shape
 ROUND_MESH = Path(__file__).parent / "meshes" / "cylinder.obj"
 """A cylinder to be seen, of radius 1 and height 1. The engine draws its own with some twelve flat sides of uneven
 width, up to 2.7 mm within the radius of a target of 0.1 m; of these 96 none is more than 27 um off it."""
+FLAT_MESH = ROUND_MESH.with_name("cylinder_16.obj")
+"""The same with 16 flat sides."""
 MARKER_DEPTH = 0.02
 """Depth of the box that a marker is made of [m]; all but its protrusion is inside the cylinder."""
 KNUCKLE_MASS = 0.05
@@ -112,7 +114,8 @@ def add_target(link: ET.Element, target: TargetConfig) -> None:
     """The cylinder and its markers, on their mount."""
     (x, y), z = target.mount, 0.5 * (target.z_min + target.z_max)
     size, middle = (target.radius, target.z_max - target.z_min), (x, y, z)
-    add_shape(link, "visual", _round(*size), middle, color=target.color, name="target")
+    mesh = FLAT_MESH if target.sides == 16 else ROUND_MESH
+    add_shape(link, "visual", _round(*size, mesh), middle, color=target.color, name="target")
     add_shape(link, "collision", _cylinder(*size), middle)
     reach = target.radius + target.marker_protrusion - 0.5 * MARKER_DEPTH
     marker = _box((MARKER_DEPTH, target.marker_width, target.marker_height))
@@ -224,9 +227,9 @@ def _cylinder(radius: float, length: float) -> ET.Element:
     return ET.Element("cylinder", radius=repr(radius), length=repr(length))
 
 
-def _round(radius: float, length: float) -> ET.Element:
+def _round(radius: float, length: float, mesh: Path = ROUND_MESH) -> ET.Element:
     """A cylinder that is only seen."""
-    return ET.Element("mesh", filename=str(ROUND_MESH), scale=vector((radius, radius, length)))
+    return ET.Element("mesh", filename=str(mesh), scale=vector((radius, radius, length)))
 
 
 def sphere(radius: float) -> ET.Element:

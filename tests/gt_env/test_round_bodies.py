@@ -1,23 +1,23 @@
 """The renderer that samples draws round bodies round: edges lie where the exact projection of a cylinder puts them."""
 
 import math
+from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
 
 from estimators.poses import Pose2
 from gt_env.config import load_config
-from gt_env.robot_model import ROUND_MESH
+from gt_env.robot_model import FLAT_MESH, ROUND_MESH, built_in_robot
 from gt_env.sensors.rendering import Instant, camera_view, target_middle
 
 ROUND = 0.02
 """What flat sides may leave of an edge at the distances here [px]."""
 
 
-@pytest.fixture(scope="module")
-def mesh():
+def read(file):
     """Corners (n, 3), normals (m, 3), and for each triangle (k, 3, 2) which of both its corners have."""
-    lines = [line.split() for line in ROUND_MESH.read_text().splitlines()]
+    lines = [line.split() for line in file.read_text().splitlines()]
     corners, normals = (
         np.array([line[1:] for line in lines if line[0] == kind], float) for kind in ("v", "vn")
     )
@@ -25,23 +25,47 @@ def mesh():
     return corners, normals, np.array(faces, int) - 1
 
 
-def test_the_mesh_is_as_wide_as_a_cylinder_on_average_and_nowhere_far_from_it(mesh):
-    corners = mesh[0]
+def outline(corners):
+    """How far a mesh reaches from its axis in all directions."""
     around = np.linspace(-math.pi, math.pi, 20_001)[:-1]
-    outline = (corners[:, :1] * np.cos(around) + corners[:, 1:2] * np.sin(around)).max(axis=0)
-    assert outline.mean() == pytest.approx(1.0, abs=1e-7)
-    assert np.abs(outline - 1).max() < 4e-4
+    return (corners[:, :1] * np.cos(around) + corners[:, 1:2] * np.sin(around)).max(axis=0)
+
+
+def test_the_round_mesh_is_as_wide_as_a_cylinder_on_average_and_nowhere_far_from_it():
+    corners, _, _ = read(ROUND_MESH)
+    reach = outline(corners)
+    assert reach.mean() == pytest.approx(1.0, abs=1e-7)
+    assert np.abs(reach - 1).max() < 4e-4
     assert (corners[:, 2].min(), corners[:, 2].max()) == (-0.5, 0.5)
 
 
-def test_the_mesh_is_closed_and_its_faces_and_normals_point_outwards(mesh):
-    corners, normals, faces = mesh
+def test_the_flat_mesh_has_its_sixteen_edges_on_the_cylinder():
+    corners, normals, _ = read(FLAT_MESH)
+    reach = outline(corners)
+    assert reach.max() == pytest.approx(1.0, abs=1e-7)
+    assert reach.min() == pytest.approx(math.cos(math.pi / 16), abs=1e-6)
+    assert len(normals) == 16 + 2
+    assert (corners[:, 2].min(), corners[:, 2].max()) == (-0.5, 0.5)
+
+
+@pytest.mark.parametrize(("sides", "mesh"), [(96, ROUND_MESH), (16, FLAT_MESH)])
+def test_the_target_is_seen_with_the_sides_it_is_configured_with(sides, mesh):
+    config = load_config({"target": {"sides": sides}})
+    urdf = ET.fromstring(built_in_robot(config.robot, config.target).urdf)
+    assert [seen.get("filename") for seen in urdf.find("link").iter("mesh")] == [str(mesh)]
+
+
+@pytest.mark.parametrize(("file", "sides"), [(ROUND_MESH, 96), (FLAT_MESH, 16)])
+def test_meshes_are_closed_and_their_faces_and_normals_point_outwards(file, sides):
+    corners, normals, faces = read(file)
     a, b, c = corners[faces[:, :, 0]].transpose(1, 0, 2)
     flat = np.cross(b - a, c - a)
     along = np.einsum("kj,kij->ki", flat, normals[faces[:, :, 1]])
-    assert (along > 0.99 * np.linalg.norm(flat, axis=1)[:, None]).all()
+    assert (along > 0.98 * np.linalg.norm(flat, axis=1)[:, None]).all()
     assert flat.sum(axis=0) == pytest.approx([0, 0, 0], abs=1e-9)
-    assert np.einsum("kj,kj->", a, flat) / 6 == pytest.approx(math.pi, rel=2e-3)  # its volume
+    radius = np.hypot(*corners[0, :2])
+    volume = 0.5 * sides * radius**2 * math.sin(2 * math.pi / sides)
+    assert np.einsum("kj,kj->", a, flat) / 6 == pytest.approx(volume, rel=1e-6)
 
 
 @pytest.fixture(scope="module")

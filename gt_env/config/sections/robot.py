@@ -102,6 +102,8 @@ class TargetConfig:
         z_max: Height of the upper end [m].
         mass: [kg].
         color: RGB of the cylinder.
+        sides: Of how many flat sides the renderer `tiny` makes the cylinder: 96 cannot be told from a round one, 16 are
+            what OpenGL scene libraries make by default. It is round to all else.
         marker_angles_deg: Where each marker stands, in the target's frame [deg].
         marker_colors: RGB of each marker.
         marker_width: [m].
@@ -116,6 +118,7 @@ class TargetConfig:
     z_max: Positive = 0.2525
     mass: Positive = 0.3
     color: Color = (255, 255, 255)
+    sides: Literal[96, 16] = 96
     marker_angles_deg: tuple[Real, ...] = (-90.0, -30.0, 30.0, 90.0, 150.0, 210.0)
     marker_colors: tuple[Color, ...] = field(default_factory=lambda: TargetGeometry().marker_colors)
     marker_width: Positive = 0.010
