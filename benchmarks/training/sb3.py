@@ -86,6 +86,11 @@ class _Curve(EvalCallback):
             warnings.filterwarnings("ignore", message="Training and eval env are not of the same type")
             super()._init_callback()
 
+    def _on_training_start(self) -> None:
+        # Calls are counted from the first step, also by a training that goes on: else it would be evaluated late or
+        # never, and the best model be an old one.
+        self.n_calls = self.model.num_timesteps // self.training_env.num_envs
+
 
 def train(run: Run, folder: Path, *, resume: bool, jobs: int, progress: Progress) -> int:
     """Train a policy, or go on training it, until the run's steps are done.

@@ -70,6 +70,15 @@ def test_a_training_leaves_all_that_is_needed_to_go_on(algo, sb3, tmp_path):
         assert sb3.load(tmp_path / POLICY).num_timesteps == more
 
 
+def test_what_goes_on_is_evaluated_at_the_same_steps(sb3, tmp_path):
+    for steps in (32, 80):  # evaluated every 64
+        run = tiny("sac", steps)
+        run.write(tmp_path)
+        sb3.train(run, tmp_path, resume=steps > 32, jobs=1, progress=lambda n: None)
+
+    assert learning_curve(tmp_path)["steps"].tolist() == [64]
+
+
 def test_tensorboard_shows_the_reward_in_its_terms(sb3, tmp_path):
     events = pytest.importorskip("tensorboard.backend.event_processing.event_accumulator")
     tiny("ppo", 64).write(tmp_path)
