@@ -1,6 +1,7 @@
 """`gt-env calibrate`: from a simulated recording to a file that brings the accuracy back."""
 
 import json
+import math
 import sys
 from dataclasses import replace
 
@@ -202,15 +203,23 @@ def test_what_was_planted_is_found_and_the_accuracy_comes_back(preset, tmp_path)
     assert (found.standard_errors[[Q.LRF_X, Q.CAMERA_X, Q.RADIUS]] < 0.002).all()
     assert found.standard_errors[Q.CLOCK_OFFSET] < 0.002
 
-    def rmse(calibration):
+    def reached(calibration):
+        """Root mean square of the position's error and of its stated deviation [m]."""
         part = Recording(
             origin="part",
             messages=MessageLog(m for m in recording.messages.stored if m.stamp < 12.0),
             truth=recording.truth,
         )
-        errors = replay(part, "fused", calibration).errors[30:]
-        return np.sqrt(np.nanmean((errors[:, :2] ** 2).sum(axis=1)))
+        done = replay(part, "fused", calibration)
+        squares = (done.errors[30:, :2] ** 2).sum(axis=1)
+        variances = np.trace(done.track.covariance[30:, :2, :2], axis1=1, axis2=2)
+        return math.sqrt(np.nanmean(squares)), math.sqrt(variances.mean())
 
-    perfect, back = rmse(config.calibration()), rmse(believing(config, run.file).believed().calibration())
-    assert back < 1.3 * perfect + 2e-4
-    assert rmse(config.believed().calibration()) > 5 * back
+    calibrated = believing(config, run.file).believed().calibration()
+    perfect, _ = reached(config.calibration())
+    back, stated = reached(calibrated)
+    _, without = reached(replace(calibrated, uncertainty=None))
+    left_open = math.sqrt(stated**2 - without**2)
+    assert left_open < 1.5e-3
+    assert back < math.hypot(perfect, 2 * left_open)  # no more than the calibration says that it leaves
+    assert reached(config.believed().calibration())[0] > 5 * back
