@@ -73,7 +73,10 @@ def train(
     settings_file: HyperOption = None,
     resume: ResumeOption = False,
     jobs: Annotated[
-        int, typer.Option("--jobs", metavar="N", min=1, help="Processes to step environments in.")
+        int,
+        typer.Option(
+            "--jobs", metavar="N", min=1, help="With more than 1, each environment in a process of its own."
+        ),
     ] = 1,
     out: Annotated[
         Path | None, typer.Option("--out", metavar="DIR", file_okay=False, help="Folder of the training.")

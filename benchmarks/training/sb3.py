@@ -99,7 +99,7 @@ def train(run: Run, folder: Path, *, resume: bool, jobs: int, progress: Progress
         run: What to train.
         folder: Where checkpoints, evaluations and the policy go; what is there is gone on from with `resume`.
         resume: Whether to go on.
-        jobs: Processes to step the environments in; 1 for this one.
+        jobs: 1 steps the environments in this process; with more each has one of its own.
         progress: Told of the steps that are done.
 
     Returns:
