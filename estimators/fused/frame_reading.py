@@ -111,8 +111,8 @@ class MarkerReading:
         passed, turned = self._moved(before, velocities, turning)
         image, limbs = self.seen.kept(before.seen, passed, turned)
         shape = np.exp(-turned / SHAPE_TURN)
-        # Where pixels average, the width is off by how limbs are read, which is the same on every side.
-        scale = shape if self.seen.quantised else np.ones_like(shape)
+        # The width is off by how limbs are read: the same on every side where pixels average, else on the same pixels.
+        scale = limbs if self.seen.quantised else np.ones_like(shape)
         return np.stack([image, image, limbs, shape, scale, shape], axis=1)
 
     def plausible(

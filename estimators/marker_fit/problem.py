@@ -134,7 +134,9 @@ class Problem:
     @property
     def scale_error(self) -> float:
         """Standard deviation of the distance between the limbs, as a share."""
-        return LIMB_PX / math.sqrt(2) / (0.5 * abs(float(self.limbs[1] - self.limbs[0])))
+        half = 0.5 * abs(float(self.limbs[1] - self.limbs[0]))
+        # Limbs that lie anywhere within their pixels leave half their distance as open as the middle between them.
+        return (SAMPLED_LIMB if self.quantised else LIMB_PX / math.sqrt(2)) / half
 
     @property
     def limb_error(self) -> float:

@@ -172,9 +172,15 @@ def test_what_lasts_follows_how_the_robot_moves_and_not_what_a_frame_says(measur
     faded = math.exp(-0.4 / SHAPE_TURN)
     np.testing.assert_allclose(turn, [0, 0, 1, faded, 1, faded])
 
-    sampled = dataclasses.replace(aside, quantised=True)
-    other_side = MarkerReading(sampled, Pose2(), 0.53).kept(before, np.zeros((1, 2)), np.array([4.0]))[0]
-    assert other_side[4] == pytest.approx(faded)  # a limb falls on other samples: the width is another
+
+def test_the_width_of_single_samples_lasts_while_the_limbs_stay_on_theirs(measurement):
+    """A round target's limbs stay where they are, however it turns."""
+    sampled = dataclasses.replace(measurement, stamp=0.1, quantised=True)
+    before, after = MarkerReading(measurement, Pose2(), 0.5), MarkerReading(sampled, Pose2(), 0.5)
+    across = 0.005 * measurement.distance * np.array([-math.sin(1.2), math.cos(1.2)])
+    turning, passing = after.kept(before, np.stack([np.zeros(2), across]), np.array([4.0, 0.0]))[:, 4]
+    assert turning == 1.0
+    assert passing == pytest.approx(1 - 450 * 0.0005 / SAME_PIXELS)
 
 
 def test_a_camera_that_turns_with_the_target_sees_the_same(measurement):
