@@ -85,11 +85,10 @@ def test_a_step_is_compared_with_plain_calls_its_parts_and_real_time(setup):
     for renderer in RENDERERS:
         of = [row for row in rows if row.what == f"env step, {renderer}"]
         assert [row.group for row in of] == ["pybullet", "cost", "cost", "real_time"]
-        against_parts, against_loop, in_time = of[1], of[2], of[3]
-        assert (
-            min(against_parts.ratio.median, against_loop.ratio.median) > 0.5
-        )  # not much less than its parts
-        assert in_time.against_seconds == pytest.approx(setup.config.timing.step)
+        assert len({row.against for row in of}) == 4
+        for row in of:
+            assert 0 < row.ratio.low <= row.ratio.median <= row.ratio.high
+        assert of[-1].against_seconds == pytest.approx(setup.config.timing.step)
 
 
 def test_a_renderer_that_cannot_show_the_room_is_left_out_with_its_reason(setup, monkeypatch):
