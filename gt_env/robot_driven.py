@@ -50,12 +50,16 @@ class Robot:
         self._body.may_sleep(True)
 
     def drive(self, action: Array) -> None:
-        """Set what to drive at, (actions,) each in [-1, 1]: here the wheels' speeds over the maximum."""
+        """Set what to drive at, (actions,) each in [-1, 1], over its maximum."""
         at_rest = self._at_rest
-        self._goal = (self._config.max_wheel_speed * action).tolist()
+        self._aim(action)
         if at_rest and not self._at_rest:
             self._body.may_sleep(False)
         self._forget_lag()
+
+    def _aim(self, action: Array) -> None:
+        """Take an action's numbers for goals: here the wheels' speeds."""
+        self._goal = (self._config.max_wheel_speed * action).tolist()
 
     def ramp(self) -> None:
         """Bring the motors one tick nearer to the commanded speeds."""

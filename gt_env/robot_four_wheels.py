@@ -86,14 +86,10 @@ class AckermannRobot(Robot):
         super().spawn(engine, pose, floor, rng)
         self._body.steer((0.0, 0.0), STEERING_TORQUE * self._config.stall_torque)
 
-    def drive(self, action: Array) -> None:
-        """Set mean speed and steering angle to drive at, over their maxima (2,), each in [-1, 1]."""
-        at_rest = self._at_rest
+    def _aim(self, action: Array) -> None:
+        """Mean speed and steering angle."""
         c = self._config
         self._goals = (c.max_wheel_speed * float(action[0]), c.max_steering_deg * DEG * float(action[1]))
-        if at_rest and not self._at_rest:
-            self._body.may_sleep(False)
-        self._forget_lag()
 
     def ramp(self) -> None:
         """See `Robot`."""

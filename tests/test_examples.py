@@ -29,7 +29,9 @@ def typed(text):
 @pytest.mark.parametrize("page", PAGES)
 def test_every_command_is_understood(page):
     for _, name, *arguments in typed(PAGES[page]):
+        assert name in COMMANDS
         asked = COMMANDS[name].make_context(name, arguments).params
+        assert asked
         config = asked.get("config")
         if config and not set(config) & set("./"):  # a preset
             load_config(config, dict(map(parse_override, asked["overrides"] or ())))
