@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -22,9 +22,9 @@ def check_writable(folder: Path) -> None:
     Raises:
         OutputError: If the folder cannot be made or written to.
     """
-    missing = _missing(folder)
+    absent = missing(folder)
     try:
-        with tempfile.TemporaryFile(dir=missing[-1].parent if missing else folder):
+        with tempfile.TemporaryFile(dir=absent[-1].parent if absent else folder):
             pass
     except OSError as error:
         raise OutputError(f"--out {folder}: cannot be written to: {error.strerror}") from None
@@ -40,7 +40,7 @@ def staged(folder: Path) -> Iterator[Path]:
         OutputError: If writing fails, e.g. because the disk is full.
     """
     check_writable(folder)
-    made = _missing(folder)
+    made = missing(folder)
     folder.mkdir(parents=True, exist_ok=True)
     scratch = Path(tempfile.mkdtemp(prefix=".unfinished-", dir=folder))
     try:
@@ -57,11 +57,16 @@ def staged(folder: Path) -> Iterator[Path]:
         raise OutputError(f"{folder}: nothing was written: {error.strerror}") from None
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
-        with suppress(OSError):  # what holds files stays
-            for path in made:
-                path.rmdir()
+        remove_empty(made)
 
 
-def _missing(folder: Path) -> list[Path]:
+def missing(folder: Path) -> list[Path]:
     """The folders that must be made to have this one, innermost first."""
     return [path for path in (folder, *folder.parents) if not os.path.lexists(path)]
+
+
+def remove_empty(folders: Iterable[Path]) -> None:
+    """Remove folders, innermost first, up to the first that holds something."""
+    with suppress(OSError):
+        for path in folders:
+            path.rmdir()

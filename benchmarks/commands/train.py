@@ -20,7 +20,7 @@ from benchmarks.commands.answer import say
 from benchmarks.commands.options import SeedOption, SetOption, configuration
 from benchmarks.output import check_writable
 from benchmarks.policies.surroundings import ESTIMATES, TASKS
-from benchmarks.training.folder import POLICY, Run, best_policy, is_run, read_run, seed_folder
+from benchmarks.training.folder import POLICY, Run, begun, best_policy, is_run, read_run, seed_folder
 from benchmarks.training.settings import ALGORITHMS, load_settings, make_settings, shipped
 from estimators.errors import ConfigError, GtEnvError, MissingExtraError
 
@@ -139,7 +139,6 @@ def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
         env.reset(seed=run.seed)  # what is wrong with the set-up is said before anything is written
     finally:
         env.close()
-    run.write(folder)
     wall, cpu = clock(), process_time()
     console = Console(stderr=True, emoji=False)
     bar = Progress(
@@ -151,7 +150,7 @@ def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
         transient=True,
         disable=not console.is_terminal,  # a file would get an empty line
     )
-    with bar:
+    with begun(run, folder), bar:
         shown = bar.add_task("", total=run.settings.steps, name=f"{run.task} by {run.algo}, seed {run.seed}")
         try:
             done = _learn(run, folder, resume, jobs, lambda n: bar.update(shown, completed=n))
@@ -167,7 +166,7 @@ def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
 def _left_behind(run: Run, folder: Path) -> str:
     """What there is after an interrupt, and how to go on."""
     if not (folder / POLICY).is_file():
-        return "nothing was learnt yet; the same command with --resume begins anew"
+        return f"nothing was learnt yet, and {folder} is as it was before"
     if run.algo == "bc":
         return f"{folder / POLICY} holds what the rounds before taught"
     return f"{folder / POLICY} is saved; the same command with --resume goes on from it"

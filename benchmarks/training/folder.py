@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
+from benchmarks.output import missing, remove_empty
 from benchmarks.training.settings import TrainingSettings, make_settings
 from estimators.errors import ConfigError
 from gt_env.config import EnvConfig, load_config
@@ -56,6 +59,19 @@ class Run:
         (folder / RUN).write_text(json.dumps(values, indent=1) + "\n", encoding="utf-8")
 
 
+@contextmanager
+def begun(run: Run, folder: Path) -> Iterator[None]:
+    """A training's folder while it is at work: where that ends before there is a policy, it is as it was before."""
+    made = missing(folder)
+    try:
+        run.write(folder)
+        yield
+    finally:
+        if not _policies(folder):
+            (folder / RUN).unlink(missing_ok=True)
+            remove_empty(made)
+
+
 def seed_folder(folder: Path, seed: int) -> Path:
     """Where the training of a seed lies among several that differ in nothing else."""
     return folder / f"seed-{seed}"
@@ -101,10 +117,14 @@ def best_policy(folder: Path) -> Path:
     Raises:
         ConfigError: If it has saved none yet.
     """
-    for name in (BEST, POLICY):
-        if (folder / name).is_file():
-            return folder / name
-    raise ConfigError(f"{folder}: holds no policy yet: neither {BEST} nor {POLICY}")
+    found = _policies(folder)
+    if not found:
+        raise ConfigError(f"{folder}: holds no policy yet: neither {BEST} nor {POLICY}")
+    return found[0]
+
+
+def _policies(folder: Path) -> list[Path]:
+    return [folder / name for name in (BEST, POLICY) if (folder / name).is_file()]
 
 
 def _as_tuples(values: Any) -> Any:

@@ -146,23 +146,61 @@ def test_an_interrupt_leaves_a_checkpoint_that_acts(sb3, tmp_path):
     env.close()
 
 
+@pytest.mark.parametrize("seeds", [1, 2])
 @pytest.mark.parametrize(("task", "algo"), [("reach", "ppo"), ("reach_scan", "bc")])
-def test_an_interrupt_before_anything_is_learnt_says_so_and_can_begin_anew(
-    task, algo, sb3, tmp_path, monkeypatch
+def test_an_interrupt_before_anything_is_learnt_says_so_and_leaves_nothing(
+    task, algo, seeds, sb3, tmp_path, monkeypatch
 ):
     def interrupted(run, folder, resume, jobs, progress):
+        begun.append(read_run(folder) == run)
+        raise KeyboardInterrupt
+
+    begun = []
+    monkeypatch.setattr(train, "_learn", interrupted)
+    asked = [
+        "train",
+        "--task",
+        task,
+        "--algo",
+        algo,
+        "--seeds",
+        str(seeds),
+        "--out",
+        str(tmp_path / "new" / "out"),
+    ]
+    for _ in range(2):  # the same command begins anew
+        done = CliRunner().invoke(app, asked)
+        assert "nothing was learnt yet" in str(done.exception)
+        assert not list(tmp_path.iterdir())
+    assert begun == [True, True]
+
+
+def test_an_interrupt_before_anything_is_learnt_leaves_what_others_put_there(sb3, tmp_path, monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    (tmp_path / "notes.txt").write_text("mine")
+    monkeypatch.setattr(train, "_learn", interrupted)
+    CliRunner().invoke(app, ["train", "--out", str(tmp_path)])
+
+    assert [path.name for path in tmp_path.iterdir()] == ["notes.txt"]
+
+
+def test_what_went_before_an_interrupt_counts_when_a_training_goes_on(sb3, tmp_path, monkeypatch):
+    def interrupted(run, folder, resume, jobs, progress):
         begun.append(resume)
+        (folder / POLICY).touch()
         raise KeyboardInterrupt
 
     begun, spent = [], []
     monkeypatch.setattr(train, "_learn", interrupted)
-    asked = ["train", "--task", task, "--algo", algo, "--out", str(tmp_path)]
+    asked = ["train", "--out", str(tmp_path)]
     for words in (asked, [*asked, "--resume"]):
         done = CliRunner().invoke(app, words)
-        assert "nothing was learnt yet" in str(done.exception)
+        assert "is saved" in str(done.exception)
         spent.append(read_run(tmp_path).setup["cpu_seconds"])
-    assert begun == [False, False]
-    assert 0 < spent[0] < spent[1]  # what went before the interrupt counts, too
+    assert begun == [False, True]
+    assert 0 < spent[0] < spent[1]
 
 
 def test_what_was_trained_is_written_down(tmp_path):
@@ -212,6 +250,15 @@ def test_an_argument_that_the_algorithm_does_not_know_is_said(sb3, tmp_path):
     run = Run(task="reach", algo="ppo", seed=0, settings=settings, config=CONFIG, setup={})
     with pytest.raises(ConfigError, match="speed"):
         sb3.train(run, tmp_path, resume=False, jobs=1, progress=lambda n: None)
+
+
+def test_settings_that_the_algorithm_refuses_leave_nothing(sb3, tmp_path):
+    (tmp_path / "own.toml").write_text("steps = 10\n[algorithm]\nspeed = 3\n")
+    out = tmp_path / "out"
+    done = CliRunner().invoke(app, ["train", "--settings", str(tmp_path / "own.toml"), "--out", str(out)])
+
+    assert "speed" in str(done.exception)
+    assert not out.exists()
 
 
 def test_a_task_without_a_free_place_leaves_nothing(sb3, tmp_path):
