@@ -41,7 +41,9 @@ def expose(
     width = float(sums.shape[1])
     edge, left = 0, 0.0
     while left < width - SLIVER:
+        inner = left  # beyond all edges that count as this one: what begins at the last of them is seen
         while edge < placed.count and placed.edges[edge] <= left + SLIVER:
+            inner = max(inner, placed.edges[edge])
             edge += 1
         right = width
         if edge < placed.count and placed.edges[edge] < width - SLIVER:
@@ -49,10 +51,10 @@ def expose(
         step = _widest(scene, placed, left)
         if step < width:  # something curved: pixel by pixel
             right = min(right, left + step, math.floor(left + SLIVER) + 1.0)
-        cut = fill(scene, placed, bands, left, right)
+        cut = fill(scene, placed, bands, inner, right)
         while cut < 1.0 and right - left > 1.01 * NARROWEST:
             right = left + max(cut * (right - left), NARROWEST)
-            cut = fill(scene, placed, bands, left, right)
+            cut = fill(scene, placed, bands, inner, right)
         deposit(bands, sums, left, right, share)
         left = right
 
