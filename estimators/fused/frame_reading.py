@@ -139,10 +139,11 @@ class MarkerReading:
         passed = velocities @ across * dt / self.seen.distance
         return passed, turning * dt + np.abs(passed)
 
-    def shows_side(self, side: float, distance: float) -> bool:
-        """Whether a target that shows a side [rad] at a distance [m] shows the same as here, from as far away."""
+    def shows_side(self, side: float, seen: MarkerMeasurement) -> bool:
+        """Whether a frame of a target that shows a side [rad] shows the same as here, from as far away, likewise."""
         turned = abs(math.remainder(side - self.side, 2 * math.pi))
-        return max(turned, abs(distance / self.seen.distance - 1)) < SAME_SIDE
+        nearer = abs(seen.distance / self.seen.distance - 1)
+        return seen.quantised == self.seen.quantised and max(turned, nearer) < SAME_SIDE
 
     def first_pose(self, target: Array) -> Pose2:
         """Pose of the base if the target is at a position (2,) [m] and looks as it does."""

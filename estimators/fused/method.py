@@ -105,6 +105,8 @@ class FusedEstimator:
         self._alike, self._spread = 0, np.zeros((2, 2))  # how many views did, and their mean covariance
         self._fix_stamp = self._yaw_stamp = -math.inf  # of what was accepted last
         self._repeats.reset()
+        if self._markers is not None:
+            self._markers.reset()
         self._missed = self._refused = 0
         self._known: deque[tuple[type, str, float]] = deque(maxlen=REMEMBERED)
 
@@ -215,7 +217,7 @@ class FusedEstimator:
     def _marker_reading(self, seen: MarkerMeasurement, yaw: float) -> MarkerReading:
         """A frame as the filter takes it; `yaw` is the target's, as known before [rad]."""
         side, view = yaw - seen.bearing, self._view
-        if view is not None and view.shows_side(side, seen.distance):
+        if view is not None and view.shows_side(side, seen):
             # A frame that shows what the one before showed says nothing new of how large errors are.
             if self._seen is None or not seen.same_samples(self._seen):
                 self._alike += 1

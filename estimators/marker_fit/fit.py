@@ -15,6 +15,7 @@ from estimators.marker_fit.centroids import fit_centroids
 from estimators.marker_fit.measurement import MarkerMeasurement
 from estimators.marker_fit.outline import TargetOutline
 from estimators.marker_fit.photometric import fit_photometric
+from estimators.marker_fit.pixels import PixelKind
 from estimators.marker_fit.problem import MODEL_ERROR, Problem, Solution, outline_at, pose_problem
 from estimators.marker_fit.profile import ProfileReader
 from estimators.marker_fit.runs import find_runs
@@ -37,7 +38,9 @@ WIDTH_TOLERANCE = 0.06
 
 
 class MarkerFit:
-    """Measures bearing and yaw of the target in single frames.
+    """Measures bearing and yaw of the target in single frames of one camera.
+
+    Only whether its pixels average over their area is told from all frames since the last reset.
 
     Args:
         calibration: What is believed of camera and target.
@@ -56,8 +59,13 @@ class MarkerFit:
         self._reader = ProfileReader(self._camera, camera, calibration.target)
         self._outline = TargetOutline(calibration.target, camera.focal)
         self._associator = Associator(calibration.target, self._outline)
+        self._pixels = PixelKind()
         self._method: Method = method
         self._model_error = model_error
+
+    def reset(self) -> None:
+        """Forget what kind of pixels the camera has."""
+        self._pixels.reset()
 
     def measure(
         self, frame: ImageFrame, position: tuple[float, float] | Array, covariance: Array
@@ -122,8 +130,10 @@ class MarkerFit:
         found = runs and self._associator.assign(runs, axis, d)
         if not runs or not found or found.score < LEAST_SCORE:
             return nothing
+        sampled = self._pixels.is_sampled(silhouette, runs)
+        focal, error = self._camera.focal, self._model_error
         problem = pose_problem(
-            self._target, silhouette, runs, found, distance, self._camera.focal, profile, self._model_error
+            self._target, silhouette, runs, found, distance, focal, profile, sampled, error
         )
         return problem, np.array([axis, axis + found.relative, d]), found.false_colors
 

@@ -23,8 +23,6 @@ much again. What stays of the yaw of 50 simulated targets at rest, under pixels 
 of the normalised error 0.96; of bearing and yaw together 1.5 of 2)."""
 CENTROID_ERROR = 0.04
 """Standard deviation of a marker's centroid there [px]."""
-MOST_MIXED = 0.2
-"""Where pixels average over their area most edges cut one; up to this share may seem to where they do not."""
 SAMPLED_LIMB = 0.12
 """Deviation of a bearing that markers on ever other pixels leave of it [px] (simulated: 0.11)."""
 SWEPT = 0.03
@@ -171,6 +169,7 @@ def pose_problem(
     distance: tuple[float, float],
     focal: float,
     profile: Profile,
+    quantised: bool,
     model_error: float,
 ) -> Problem:
     """Put together what was found.
@@ -183,6 +182,7 @@ def pose_problem(
         distance: From the camera to its axis, mean and standard deviation [m].
         focal: Length [px].
         profile: The colours by column that all this was found in.
+        quantised: Whether a pixel is one sample.
         model_error: Standard deviation of edges and shares without noise [px].
     """
     used = np.flatnonzero(found.markers >= 0)
@@ -206,7 +206,7 @@ def pose_problem(
         ends=runs.columns[runs.ends[used]],
         inside=(float(runs.columns[0]), float(runs.columns[-1])),
         touching=runs.touching[used],
-        quantised=silhouette.mixed + runs.mixed <= MOST_MIXED * (2 + 2 * int((~runs.touching).sum())),
+        quantised=quantised,
         distance=distance[0],
         distance_sigma=distance[1],
         pixel=distance[0] / focal,

@@ -133,9 +133,12 @@ def test_frames_follow_the_distance_alike_until_the_target_turns_or_comes_nearer
     assert (kept.lean, kept.sensitivity.tolist()) == (5.0, measurement.sensitivity.tolist())
     assert kept.covariance is other.covariance
     first = MarkerReading(measurement, Pose2(), 0.5)
-    assert first.shows_side(0.5 - 2 * math.pi + 0.01, measurement.distance)
-    assert not first.shows_side(0.55, measurement.distance)
-    assert not first.shows_side(0.5, 0.95 * measurement.distance)
+    assert first.shows_side(0.5 - 2 * math.pi + 0.01, measurement)
+    assert not first.shows_side(0.55, measurement)
+    nearer = dataclasses.replace(measurement, distance=0.95 * measurement.distance)
+    assert not first.shows_side(0.5, nearer)
+    sampled = dataclasses.replace(measurement, quantised=not measurement.quantised)
+    assert not first.shows_side(0.5, sampled)
 
 
 def test_frames_of_single_samples_weigh_alike_whatever_each_says_of_itself(measurement):
