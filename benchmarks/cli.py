@@ -20,6 +20,7 @@ from benchmarks.commands.score import score
 from benchmarks.commands.train import TrainingStoppedError, train
 from benchmarks.commands.usage import complaint
 from benchmarks.commands.validate import validate
+from benchmarks.interrupts import interrupts_raised
 from estimators.errors import GtEnvError
 from gt_env import __version__
 
@@ -85,10 +86,11 @@ def run(words: Sequence[str]) -> int:
 
     Returns:
         The exit status: 2 where the command line cannot be understood, 1 after an error of the domain, 130 after
-        Ctrl-C; each of them is one line on stderr.
+        Ctrl-C and what else asks a process to stop; each of them is one line on stderr.
     """
     try:
-        return app(args=list(words), prog_name=PROGRAM, standalone_mode=False) or 0
+        with interrupts_raised():
+            return app(args=list(words), prog_name=PROGRAM, standalone_mode=False) or 0
     except typer.TyperException as error:
         return _failed(complaint(error, app, words), error.exit_code)
     except (StoppedError, TrainingStoppedError) as error:

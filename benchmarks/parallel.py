@@ -24,7 +24,8 @@ from rich.progress import (
 
 from benchmarks.dask_runs import completed
 from benchmarks.engines import Engine, running
-from benchmarks.orphans import deaf_to_ctrl_c, end_with
+from benchmarks.interrupts import deaf_to_ctrl_c
+from benchmarks.orphans import end_with
 from estimators.errors import GtEnvError
 
 RETURNS: Final = {"loky": "generator_unordered", "ray": "list"}

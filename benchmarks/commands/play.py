@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import signal
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -85,27 +82,14 @@ def _play(session: PlaySession, seed: int, window: Window | None) -> None:
     ended = "gt-env: "
     interrupted = False
     try:
-        with _hanging_up_interrupts():
-            session.start(seed)
-            if window is None:
-                play_in_terminal(session)
-            else:
-                play_in_window(session, window)
+        session.start(seed)
+        if window is None:
+            play_in_terminal(session)
+        else:
+            play_in_window(session, window)
     except KeyboardInterrupt:
         interrupted, ended = True, "gt-env: interrupted: "
     finally:
         say(Console(stderr=True, emoji=False), ended + session.close())
     if interrupted:
         raise typer.Exit(130)
-
-
-@contextmanager
-def _hanging_up_interrupts() -> Iterator[None]:
-    """Treat a closed terminal and a polite kill as Ctrl-C, so that nothing half-written stays behind."""
-    names = [n for n in ("SIGTERM", "SIGHUP") if hasattr(signal, n)]
-    before = {n: signal.signal(getattr(signal, n), signal.default_int_handler) for n in names}
-    try:
-        yield
-    finally:
-        for name, handler in before.items():
-            signal.signal(getattr(signal, name), handler)

@@ -18,10 +18,11 @@ from stable_baselines3 import A2C, DDPG, DQN, PPO, SAC, TD3
 from stable_baselines3.common.base_class import BaseAlgorithm
 from stable_baselines3.common.callbacks import BaseCallback, CallbackList, EvalCallback
 from stable_baselines3.common.env_util import make_vec_env
+from stable_baselines3.common.logger import Logger
 from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
 from stable_baselines3.common.vec_env import DummyVecEnv, SubprocVecEnv, VecEnv, VecNormalize
 
-from benchmarks.orphans import deaf_to_ctrl_c
+from benchmarks.interrupts import deaf_to_ctrl_c
 from benchmarks.output import staged
 from benchmarks.training.folder import BUFFER, EVALUATIONS, NORMALIZER, POLICY, Run
 from benchmarks.training.surroundings import training_env
@@ -116,6 +117,10 @@ def train(run: Run, folder: Path, *, resume: bool, jobs: int, progress: Progress
         checks = VecNormalize(checks, training=False, norm_obs=False, norm_reward=False)
     try:
         model = _model(run, folder, envs, resume)
+        if model.tensorboard_log is None:
+            model.set_logger(
+                Logger(folder=None, output_formats=[])
+            )  # else it leaves a folder among the system's
         every = max(1, settings.evaluate_every // settings.environments)
         curve = _Curve(checks, folder, settings.evaluate_episodes, every)
         watch = _Watch(folder, settings.checkpoint_every, progress)

@@ -76,23 +76,29 @@ def test_ctrl_c_is_answered_by_the_process_that_hands_out_the_work_and_by_no_oth
 SWEEP = """
 import io
 from rich.console import Console
+from benchmarks.interrupts import interrupts_raised
 from benchmarks.parallel import run_side_by_side
 from sweep_tasks import misbehave
 console = Console(file=io.StringIO())
-run_side_by_side(misbehave, ["sleep"] * 4, [1] * 4, jobs=2, label="", console=console)
+with interrupts_raised():
+    run_side_by_side(misbehave, ["sleep"] * 4, [1] * 4, jobs=2, label="", console=console)
 """
 
 
 @pytest.fixture
-def sweeping(tmp_path):
-    """Another process in the middle of a sweep, and the numbers of its workers."""
+def sweeping(tmp_path, tmp_path_factory):
+    """Another process in the middle of a sweep, the numbers of its workers, and where its scratch files are."""
+    scratch = tmp_path_factory.mktemp("scratch")
     run = subprocess.Popen(
         [sys.executable, "-c", SWEEP], cwd=tmp_path, start_new_session=True, stderr=subprocess.PIPE, text=True,
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, sys.path)), "TELL": str(tmp_path)},
+        env={
+            **os.environ,
+            "PYTHONPATH": os.pathsep.join(map(str, sys.path)), "TELL": str(tmp_path), "TMPDIR": str(scratch),
+        },
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     )  # fmt: skip
     wait_until(lambda: len(list(tmp_path.iterdir())) == 2, 30.0)
-    return run, [int(path.name) for path in tmp_path.iterdir()]
+    return run, [int(path.name) for path in tmp_path.iterdir()], scratch
 
 
 def wait_until(true, patience):
@@ -109,13 +115,16 @@ def is_alive(process):
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="asks Linux for its processes")
-@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGKILL])
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
 def test_a_sweep_that_is_stopped_ends_with_all_its_processes(sweeping, how):
-    run, workers = sweeping
+    run, workers, scratch = sweeping
     assert all(is_alive(worker) for worker in workers)
 
     os.kill(run.pid, how)
-    run.communicate(timeout=10)
+    _, said = run.communicate(timeout=10)
 
     assert run.returncode != 0
+    if how is not signal.SIGKILL:
+        assert said.rstrip().endswith("KeyboardInterrupt")
+        assert not list(scratch.iterdir())
     wait_until(lambda: not any(is_alive(worker) for worker in workers), 10.0)

@@ -2,6 +2,7 @@
 
 import json
 import re
+import tempfile
 
 import numpy as np
 import pytest
@@ -45,7 +46,9 @@ def weights(path, sb3):
 
 
 @pytest.mark.parametrize("algo", TINY)
-def test_a_training_leaves_all_that_is_needed_to_go_on(algo, sb3, tmp_path):
+def test_a_training_leaves_all_that_is_needed_to_go_on(algo, sb3, tmp_path, monkeypatch, tmp_path_factory):
+    scratch = tmp_path_factory.mktemp("scratch")
+    monkeypatch.setattr(tempfile, "tempdir", str(scratch))
     run, seen = tiny(algo, 64), []
     run.write(tmp_path)
     done = sb3.train(run, tmp_path, resume=False, jobs=1, progress=seen.append)
@@ -57,6 +60,7 @@ def test_a_training_leaves_all_that_is_needed_to_go_on(algo, sb3, tmp_path):
         p.name for p in tmp_path.iterdir()
     }
     assert not list(tmp_path.glob(".unfinished*"))
+    assert not list(scratch.glob("SB3*"))
 
     more = sb3.train(tiny(algo, 128), tmp_path, resume=True, jobs=1, progress=seen.append)
     then = weights(tmp_path / POLICY, sb3)
