@@ -1,4 +1,4 @@
-"""What another run would bring: resampling runs or, where there are too few, blocks of time."""
+"""What another run would bring: resampling runs."""
 
 from __future__ import annotations
 
@@ -10,27 +10,23 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.scoring.quantities import Z95
+from benchmarks.scoring.quantities import Z95, Quantity
 from estimators.poses import Array
 
 RESAMPLES: Final = 2000
 FEWEST_RUNS: Final = 3
-"""Of fewer runs the blocks are resampled, which says nothing of what differs from run to run."""
-FEWEST_BLOCKS: Final = 4
-"""Of fewer blocks nothing is said at all."""
+"""Fewer do not tell what differs from run to run: parts of one drive share how it went."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class Units:
-    """What is resampled: K runs or blocks of which each stands for itself.
+    """What is resampled: K runs of which each stands for itself.
 
     Attributes:
-        strata: (K,) units are drawn from their own stratum: the path.
-        runs: Whether they are whole runs.
+        strata: (K,) runs are drawn from their own stratum: the path.
     """
 
     strata: NDArray[np.int64]
-    runs: bool
 
     @property
     def freedom(self) -> int:
@@ -39,12 +35,12 @@ class Units:
 
     @property
     def quantile(self) -> float:
-        """Of Student's t, 97.5 % (Abramowitz and Stegun 26.7.5), as so few units tell their own spread badly."""
+        """Of Student's t, 97.5 % (Abramowitz and Stegun 26.7.5), as so few runs tell their own spread badly."""
         z, v = Z95, max(self.freedom, 1)
         return z + (z**3 + z) / (4 * v) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * v**2)
 
     def drawn(self, seed: int) -> NDArray[np.int64]:
-        """(resamples, K) indices of units."""
+        """(resamples, K) indices of runs."""
         rng = np.random.default_rng([seed, len(self.strata)])
         chosen = np.empty((RESAMPLES, len(self.strata)), np.int64)
         for stratum in np.unique(self.strata):
@@ -53,49 +49,37 @@ class Units:
         return chosen
 
 
-def units(paths: Sequence[str], blocks: Sequence[int]) -> Units | None:
-    """What to resample.
-
-    Args:
-        paths: Of each run.
-        blocks: Of each run, how many there are.
-
-    Returns:
-        None where there is too little to say anything.
-    """
-    names = sorted(set(paths))
-    if len(paths) >= FEWEST_RUNS:
-        each = np.array([names.index(path) for path in paths])
-        several = all(paths.count(name) > 1 for name in names)
-        return Units(strata=each if several else np.zeros_like(each), runs=True)
-    if sum(blocks) < FEWEST_BLOCKS:
+def units(paths: Sequence[str]) -> Units | None:
+    """What to resample of runs along these paths; None where there are too few to say anything."""
+    if len(paths) < FEWEST_RUNS:
         return None
-    return Units(strata=np.zeros(sum(blocks), np.int64), runs=False)
+    names = sorted(set(paths))
+    each = np.array([names.index(path) for path in paths])
+    several = all(paths.count(name) > 1 for name in names)
+    return Units(strata=each if several else np.zeros_like(each))
 
 
-def sums(blocks: Sequence[Array], by: Units) -> Array:
-    """Samples and sum of squares (K, 2) of each unit, from the blocks (., 2) of each run."""
-    if by.runs:
-        return np.array([b.sum(axis=0) for b in blocks])
-    return np.concatenate(list(blocks))
+def sums(of: Sequence[Quantity]) -> Array:
+    """Samples and sum of squares (K, 2) of each run."""
+    return np.array([(q.n, q.squares) for q in of], float)
 
 
-def resampled_roots(of_unit: Array, drawn: NDArray[np.int64], stated: float) -> Array:
+def resampled_roots(of_run: Array, drawn: NDArray[np.int64], stated: float) -> Array:
     """Root mean squares (resamples,), less the station's variance `stated`**2."""
-    total = of_unit[drawn].sum(axis=1)
+    total = of_run[drawn].sum(axis=1)
     mean_squares = total[:, 1] / np.maximum(total[:, 0], 1)
     roots: Array = np.sqrt((mean_squares - stated**2).clip(0.0))
     return roots
 
 
 def expected_interval(
-    of_unit: Array, by: Units, value: float, stated: float, seed: int
+    of_run: Array, by: Units, value: float, stated: float, seed: int
 ) -> tuple[float, float]:
     """The 95 % interval of what the corrected root mean square would be over very many such runs.
 
     The bootstrap's spread is widened by Student's t, and by what a resample of few lacks in spread.
     """
-    roots = resampled_roots(of_unit, by.drawn(seed), stated)
+    roots = resampled_roots(of_run, by.drawn(seed), stated)
     few = math.sqrt(len(by.strata) / max(by.freedom, 1))
     half = by.quantile * few * float(roots.std())
     return max(value - half, 0.0), value + half

@@ -9,11 +9,10 @@ from itertools import combinations
 
 import numpy as np
 
-from benchmarks.scoring.bootstrap import resampled_roots, sums
+from benchmarks.scoring.bootstrap import resampled_roots, sums, units
 from benchmarks.scoring.judge import JudgedRun
 from benchmarks.scoring.quantities import Z95, Quantity, corrected
 from benchmarks.scoring.station import DOUBT
-from benchmarks.scoring.summary import run_units
 from benchmarks.scoring.verdicts import JUDGED
 
 LEVEL = 0.05
@@ -29,10 +28,12 @@ class Comparison:
         second: Name of another.
         what: `position`, `yaw` or `relative`.
         difference: Of the corrected errors [m or rad].
-        interval: 95 %, of the difference over very many such runs.
+        of_other_runs: Whether what follows is about very many such runs; of too few it is about these very ones, in
+            which nothing is left to chance but the station's errors.
+        interval: 95 %, of the difference.
         p: Chance of such a difference if there was none.
         significant: Whether it is more than chance, all pairs of the quantity considered (Holm).
-        resolvable: The smallest difference that these runs before this reference would have shown.
+        resolvable: The smallest difference that would have shown.
         by_station: The part of that which is the reference's: even of runs without end it cannot be less than
             what its common errors leave.
     """
@@ -41,6 +42,7 @@ class Comparison:
     second: str
     what: str
     difference: float
+    of_other_runs: bool
     interval: tuple[float, float]
     p: float
     significant: bool
@@ -49,7 +51,10 @@ class Comparison:
 
 
 def compare(runs: Sequence[JudgedRun], reference: str, seed: int = 0) -> list[Comparison]:
-    """Compare all pairs of subjects on those runs in which both were there, by a paired bootstrap."""
+    """Compare all pairs of subjects on those runs in which both were there.
+
+    Three runs or more tell of others, by a paired bootstrap; fewer only of themselves.
+    """
     found: list[Comparison] = []
     for what, quantity in JUDGED.items():
         pairs = [
@@ -78,33 +83,33 @@ def _compared(
     firsts = [x.errors.quantities[quantity] for _, x, _ in both if x.errors is not None]
     seconds = [y.errors.quantities[quantity] for _, _, y in both if y.errors is not None]
     score_a, score_b = corrected(firsts), corrected(seconds)
-    by = run_units([(path, x) for path, x, _ in both]) if both else None
-    if by is None or score_a is None or score_b is None:
+    if score_a is None or score_b is None:
         return None
-    of_units = [sums([q.blocks for q in of], by) for of in (firsts, seconds)]
-    if any(len(u) != len(by.strata) for u in of_units):
-        return None
-    drawn = by.drawn(seed)
-    roots = [
-        resampled_roots(u, drawn, stated)
-        for u, stated in zip(of_units, (score_a.stated, score_b.stated), strict=True)
-    ]
-    few = math.sqrt(len(by.strata) / max(by.freedom, 1))
-    error = few * float((roots[0] - roots[1]).std())
+    by = units([path for path, _, _ in both])
+    by_station = _by_station(firsts, seconds, score_a.raw + score_b.raw)
+    half = by_station
+    if by is not None:
+        drawn = by.drawn(seed)
+        roots = [
+            resampled_roots(sums(of), drawn, score.stated)
+            for of, score in ((firsts, score_a), (seconds, score_b))
+        ]
+        few = math.sqrt(len(by.strata) / max(by.freedom, 1))
+        half = by.quantile * few * float((roots[0] - roots[1]).std())
     difference = score_a.value - score_b.value
-    half = by.quantile * error
-    # Student's t as a normal deviate whose 97.5 % quantile is the same.
-    deviate = abs(difference) / error * Z95 / by.quantile if error > 0 else (math.inf if difference else 0.0)
+    # Of a normal distribution; Student's t as the one whose 97.5 % quantile is the same.
+    deviate = abs(difference) / half * Z95 if half > 0 else (math.inf if difference else 0.0)
     return Comparison(
         first=a,
         second=b,
         what=what,
         difference=difference,
+        of_other_runs=by is not None,
         interval=(difference - half, difference + half),
         p=math.erfc(deviate / math.sqrt(2)),
         significant=False,
         resolvable=half,
-        by_station=_by_station(firsts, seconds, score_a.raw + score_b.raw),
+        by_station=by_station,
     )
 
 

@@ -22,8 +22,6 @@ from benchmarks.trajectory.trajectory import Trajectory
 from estimators.messages import NO_COVARIANCE
 from estimators.poses import Array, wrap_angle
 
-BLOCK: Final = 10.0
-"""Length of the blocks of time that a bootstrap draws from [s]: twice as long as the station's errors last."""
 DISTANCES: Final = (0.25, 0.5, 1.0, 2.0, 5.0, 10.0)
 """Ways over which relative motion is judged [m]."""
 TIMES: Final = (1.0,)
@@ -108,11 +106,9 @@ def _pose_quantities(
         drawn = thinned(len(stamps))
         histories_here = histories.at(stamps[drawn])
         found[name] = quantity(
-            stamps,
             part(pairs.errors[chosen], heading),
             part(histories_here, heading[drawn]),
             drawn,
-            BLOCK,
             None if true is None else part(true.errors[chosen], true.reference.poses[chosen, 2]),
             None if owned is None else part(owned.errors[chosen], owned.reference.poses[chosen, 2]),
         )
@@ -139,14 +135,11 @@ def _relative_quantities(
         None if p is None else relative_errors(p.reference.poses, p.estimate.poses, chosen)
         for p in (true, owned)
     ]
-    stamps = pairs.stamps[chosen[:, 0]]
     return {
         name + suffix: quantity(
-            stamps,
             errors[:, columns],
             own[..., columns],
             drawn,
-            BLOCK,
             *(None if e is None else e[:, columns] for e in against),
         )
         for suffix, columns in (("", slice(0, 2)), ("_yaw", slice(2, 3)))

@@ -35,7 +35,6 @@ class Quantity:
         squares: Sum of |d|^2, estimate vs gt.
         cross: (draws,) mean of d.g over the samples, for each history of the station's errors g.
         own: (draws,) mean of |g|^2.
-        blocks: (K, 2) samples and sum of |d|^2 in each block of time.
         true_squares: Sum of |e|^2, estimate vs true; NaN where the truth is not known.
         gt_squares: Sum of |g|^2 as it was, gt vs true; likewise.
     """
@@ -44,7 +43,6 @@ class Quantity:
     squares: float
     cross: Array
     own: Array
-    blocks: Array
     true_squares: float = math.nan
     gt_squares: float = math.nan
 
@@ -78,36 +76,28 @@ class Corrected:
 
 
 def quantity(
-    stamps: Array,
     differences: Array,
     histories: Array,
     drawn: slice,
-    block: float,
     true: Array | None = None,
     gt: Array | None = None,
 ) -> Quantity:
     """Sum up one kind of error.
 
     Args:
-        stamps: (N,) [s].
         differences: (N, k) estimate less gt.
         histories: (draws, M, k) of the station's errors, at the chosen samples.
         drawn: Which M of the N samples these are.
-        block: Length of a block [s].
         true: (N, k) estimate less truth.
         gt: (N, k) gt less truth.
     """
     d = differences[drawn]
-    square = (differences**2).sum(axis=1)
-    parts = ((stamps - stamps[0]) // block).astype(np.int64) if len(stamps) else np.zeros(0, np.int64)
-    counts = np.bincount(parts)
     m = max(len(d), 1)
     return Quantity(
         n=len(differences),
-        squares=float(square.sum()),
+        squares=float((differences**2).sum()),
         cross=np.einsum("nk,mnk->m", d, histories) / m,
         own=np.einsum("mnk,mnk->m", histories, histories) / m,
-        blocks=np.column_stack([counts.astype(float), np.bincount(parts, square)])[counts > 0],
         true_squares=math.nan if true is None else float((true**2).sum()),
         gt_squares=math.nan if gt is None else float((gt**2).sum()),
     )

@@ -135,7 +135,6 @@ def _against_gt(score: Score) -> dict[str, Any]:
         "yaw_mean_deg": _finite(DEGREES * yaw),
         "end_drift_mm": MM * score.end_drift,
         "end_drift_percent": 100 * score.end_drift / score.way if score.way > 0 else None,
-        "expected_from_runs": score.from_runs,
     }
 
 
@@ -197,6 +196,7 @@ def _comparison(c: Comparison) -> dict[str, Any]:
         "what": c.what,
         f"difference_{unit}": factor * c.difference,
         f"interval_{unit}": [factor * v for v in c.interval],
+        "of_other_runs": c.of_other_runs,
         "p": c.p,
         "significant": c.significant,
         f"resolvable_{unit}": factor * c.resolvable,

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from benchmarks.scoring.bootstrap import Units, expected_interval, sums, units
-from benchmarks.scoring.judge import Judged, JudgedRun
+from benchmarks.scoring.judge import JudgedRun
 from benchmarks.scoring.quantities import Corrected, Quantity, corrected
 from benchmarks.scoring.station import DOUBT
 from benchmarks.scoring.verdicts import Verdict, ratios, verdict
@@ -25,7 +25,6 @@ class Score:
         runs: How many.
         scores: Root mean squared errors by quantity; None where there was no sample.
         expected: The interval of what very many such runs would bring, by quantity; empty where too few to say.
-        from_runs: Whether that is from runs, or from blocks within too few of them.
         ratios: Localizer over station, by what is judged.
         true_ratios: The same from errors as they were.
         nees: Of the localizer's covariance and the station's together; 3 is honest.
@@ -39,7 +38,6 @@ class Score:
     runs: int
     scores: Mapping[str, Corrected | None]
     expected: Mapping[str, Interval]
-    from_runs: bool
     ratios: Mapping[str, float | None]
     true_ratios: Mapping[str, float | None]
     nees: float | None
@@ -135,7 +133,7 @@ def _score(name: str, runs: Sequence[JudgedRun], reference: str, seed: int) -> S
     errors = [judged.errors for _, judged in there if judged.errors is not None]
     quantities = {q: [e.quantities[q] for e in errors] for q in errors[0].quantities}
     scores = {q: corrected(of, DOUBT) for q, of in quantities.items()}
-    resampled = run_units(there)
+    resampled = units([path for path, _ in there])
     nees = [e.nees for e in errors if e.nees is not None]
     nees_true = [e.nees_true for e in errors if e.nees_true is not None]
     along, cross, yaw = np.nanmean(np.array([e.offset for e in errors]), axis=0).tolist()
@@ -143,7 +141,6 @@ def _score(name: str, runs: Sequence[JudgedRun], reference: str, seed: int) -> S
         runs=len(errors),
         scores=scores,
         expected=_expected(quantities, scores, resampled, seed),
-        from_runs=resampled is not None and resampled.runs,
         ratios=ratios(scores),
         true_ratios=ratios(scores, of_truth=True),
         nees=float(np.mean(nees)) if nees else None,
@@ -153,12 +150,6 @@ def _score(name: str, runs: Sequence[JudgedRun], reference: str, seed: int) -> S
         offset=(along, cross, yaw),
         offsets=combined([j.offsets for _, j in there if j.offsets is not None]),
     )
-
-
-def run_units(there: Sequence[tuple[str, Judged]]) -> Units | None:
-    """What to resample of runs, given as path and judgement."""
-    blocks = [len(j.errors.quantities["position"].blocks) for _, j in there if j.errors is not None]
-    return units([path for path, _ in there], blocks)
 
 
 def _expected(
@@ -172,9 +163,7 @@ def _expected(
         score = scores[name]
         if by is None or score is None or any(q.n == 0 for q in of):
             continue
-        of_unit = sums([q.blocks for q in of], by)
-        if len(of_unit) == len(by.strata):  # else the blocks of this quantity are others
-            found[name] = expected_interval(of_unit, by, score.value, score.stated, seed)
+        found[name] = expected_interval(sums(of), by, score.value, score.stated, seed)
     return found
 
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from benchmarks.report.scores import DEGREES, MM, times
 from benchmarks.report.tables import NONE, Table
+from benchmarks.scoring.bootstrap import FEWEST_RUNS
 from benchmarks.scoring.checks import Checked
 from benchmarks.scoring.comparison import Comparison
 from benchmarks.scoring.quantities import Corrected
@@ -18,6 +19,10 @@ from benchmarks.trajectory.offsets import NAMES
 READING = (
     "All are root mean squares. vs gt: against the station, less its own stated variance; 95 %: holds what the error "
     "of these very runs was; another run: 95 % interval of what very many such runs would bring."
+)
+FEW_RUNS = (
+    f" {FEWEST_RUNS} runs or more tell what another would bring (--seeds); ranks are those of these very runs, equal "
+    "where the station's own error may have made the difference."
 )
 STANDS_OUT = 3.0
 """Standard errors beyond which an offset is pointed out."""
@@ -34,8 +39,10 @@ def score_tables(
     """All tables in the order of the page; subjects by rank."""
     order = ordered(summaries, ranks, reference)
     against = f"estimate vs gt ({reference}), {TITLES[align]}"
+    scores = [s.by_reference[reference] for s in order]
+    reading = READING + (FEW_RUNS if all(s is None or s.runs < FEWEST_RUNS for s in scores) else "")
     tables = [
-        _scores(order, ranks, reference, "position", f"Position, {against}", READING),
+        _scores(order, ranks, reference, "position", f"Position, {against}", reading),
         _scores(order, ranks, reference, "yaw", f"Yaw, {against}", ""),
         verdict_table(order),
         _health(order),
@@ -180,8 +187,11 @@ def _comparisons(comparisons: Sequence[Comparison]) -> Table:
             )
         )
     head = ("pair", "what", "difference", "95 %", "significant", "resolvable", "by the station")
+    how = "Paired bootstrap over the runs."
+    if not any(c.of_other_runs for c in comparisons):
+        how = "Of these very runs: too few to tell what others would bring."
     note = (
-        "Paired bootstrap over the runs. Resolvable: the smallest difference that would have shown; by the station: "
+        f"{how} Resolvable: the smallest difference that would have shown; by the station: "
         "what of it the reference's errors alone make. Significant: all pairs considered (Holm, 5 %)."
     )
     return Table(title="Differences", head=head, rows=tuple(rows), note=note)

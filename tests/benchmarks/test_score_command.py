@@ -81,7 +81,10 @@ def test_the_tutorial_runs_as_it_stands(command, tmp_path):
         assert set(subject["ratios"]) == set(subject["verdicts"]) == {"position", "yaw", "relative"}
         assert subject["estimate_vs_gt"]["ate_mm"] < 100  # it starts where it should and goes the right way
         assert subject["availability"] > 0.95
-    assert [c["what"] for c in report["comparisons"]] in ([], ["position", "yaw", "relative"])
+    assert [c["what"] for c in report["comparisons"]] == [
+        w for w, r in subject["ratios"].items() if r is not None
+    ]
+    assert not any(c["of_other_runs"] for c in report["comparisons"])  # of one run
 
 
 @pytest.mark.slow

@@ -106,9 +106,7 @@ def test_the_interval_allows_for_a_station_that_is_worse_than_it_says():
 
 def test_the_interval_solves_its_own_equation():
     draws = np.array([-1.0, 1.0]) * 1e-6
-    q = Quantity(
-        n=100, squares=100 * 4e-4, cross=draws, own=np.full(2, 1e-4), blocks=np.array([[100, 100 * 4e-4]])
-    )
+    q = Quantity(n=100, squares=100 * 4e-4, cross=draws, own=np.full(2, 1e-4))
     found = corrected([q])
     for end in found.interval:
         t = end**2
@@ -137,7 +135,7 @@ def test_a_calibration_that_is_not_exact_widens_every_interval():
 
 
 def test_no_sample_is_no_score():
-    empty = Quantity(n=0, squares=0.0, cross=np.zeros(3), own=np.zeros(3), blocks=np.empty((0, 2)))
+    empty = Quantity(n=0, squares=0.0, cross=np.zeros(3), own=np.zeros(3))
     assert corrected([empty]) is None
     assert corrected([]) is None
 

@@ -6,7 +6,7 @@ import pytest
 
 from benchmarks.scoring.bootstrap import expected_interval, sums, units
 from benchmarks.scoring.comparison import Comparison, _holm, ranks
-from benchmarks.scoring.quantities import Corrected
+from benchmarks.scoring.quantities import Corrected, Quantity
 from benchmarks.scoring.verdicts import ratio, ratios, verdict
 
 
@@ -33,14 +33,11 @@ def test_the_ratio_is_of_the_corrected_error_to_the_stated_uncertainty():
     assert of_truth == {"position": pytest.approx(9.0), "yaw": None, "relative": None}
 
 
-def runs(rng, n, sigma, blocks=6):
-    """Blocks of runs of which each has an error of its own size."""
-    made = []
-    for _ in range(n):
-        size = sigma * math.exp(rng.normal(0, 0.2))
-        errors = rng.normal(0, size, (blocks, 100))
-        made.append(np.column_stack([np.full(blocks, 100.0), (errors**2).sum(axis=1)]))
-    return made
+def runs(rng, n, sigma, samples=600):
+    """Runs of which each has an error of its own size."""
+    sizes = sigma * np.exp(rng.normal(0, 0.2, n))
+    squares = (rng.normal(0, sizes[:, None], (n, samples)) ** 2).sum(axis=1)
+    return [Quantity(n=samples, squares=of, cross=np.zeros(2), own=np.zeros(2)) for of in squares]
 
 
 @pytest.mark.parametrize("n", [3, 10])
@@ -48,30 +45,26 @@ def test_the_interval_of_another_run_holds_what_very_many_would_bring(n):
     expected = 0.02 * math.exp(0.2**2)  # root of the mean of the squares of log-normal sizes
     held = []
     for seed in range(200):
-        blocks = runs(np.random.default_rng(seed), n, 0.02)
-        by = units(["eight"] * n, [6] * n)
-        value = math.sqrt(sum(b[:, 1].sum() for b in blocks) / sum(b[:, 0].sum() for b in blocks))
-        low, high = expected_interval(sums(blocks, by), by, value, 0.0, seed)
+        made = runs(np.random.default_rng(seed), n, 0.02)
+        by = units(["eight"] * n)
+        value = math.sqrt(sum(q.squares for q in made) / sum(q.n for q in made))
+        low, high = expected_interval(sums(made), by, value, 0.0, seed)
         held.append(low <= expected <= high)
     assert 0.85 <= np.mean(held) <= 0.99
 
 
-def test_runs_are_resampled_within_their_path_and_blocks_if_there_are_too_few_runs():
-    by = units(["a", "a", "b", "b"], [6] * 4)
-    assert by.runs
+def test_runs_are_resampled_within_their_path_and_not_at_all_if_there_are_too_few():
+    by = units(["a", "a", "b", "b"])
     assert by.freedom == 2
     drawn = by.drawn(0)
     assert set(drawn[:, :2].ravel()) == {0, 1}
     assert set(drawn[:, 2:].ravel()) == {2, 3}
-    few = units(["a", "b"], [6, 5])
-    assert not few.runs
-    assert len(few.strata) == 11
-    assert units(["a"], [3]) is None
+    assert units(["a", "b"]) is None
 
 
 def compared(first, second, p, difference=1.0, what="position"):
     return Comparison(
-        first=first, second=second, what=what, difference=difference, interval=(0.0, 2.0), p=p,
+        first=first, second=second, what=what, difference=difference, of_other_runs=True, interval=(0.0, 2.0), p=p,
         significant=False, resolvable=1.0, by_station=0.1,
     )  # fmt: skip
 
