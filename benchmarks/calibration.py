@@ -25,10 +25,15 @@ from gt_env.config import EnvConfig
 SHOWN: Final[dict[str, tuple[str, float]]] = {"m": ("mm", 1e3), "rad": ("deg", 1 / DEG), "s": ("ms", 1e3)}
 """Unit and factor in which a quantity is shown."""
 WORST_FIT: Final = 1.3
-"""Root mean square residual of the walls, in standard deviations, above which they are not as they are believed."""
-MISFIT: Final = (
-    "The walls fit {times:.1f} times worse than the noise of the ranges allows: the room, or the beams' bearings, are "
-    "not as the configuration says, and standard errors may be too small."
+"""Root mean square residual of a kind, in standard deviations, above which something is not as it is believed."""
+MISFITS: Final = {
+    "walls": "The walls fit {times:.1f} times worse than the noise of the ranges allows: the room, or the beams' "
+    "bearings, are not as the configuration says, and standard errors may be too small.",
+    "image": "The target and the corners in the image fit {times:.1f} times worse than its pixels allow: camera, "
+    "target or room are not as the configuration says, and what is found of the camera may be far off.",
+}
+UNSEEN: Final = (
+    "None of the {frames} frames shows the target as the configuration describes it and the camera."
 )
 
 
@@ -76,9 +81,14 @@ class CalibrationRun:
         return shown
 
     @property
-    def walls_fit(self) -> float:
-        """Root mean square residual of the walls over what noise leaves of it; near 1 if the room is as believed."""
-        return self.found.solution.residuals["walls"]
+    def misfits(self) -> list[str]:
+        """What fits worse than the noise allows, in words."""
+        residuals = self.found.solution.residuals
+        seen = max(residuals.get(kind, 0.0) for kind in ("columns", "widths", "corners"))
+        times = {"walls": residuals["walls"], "image": seen}
+        said = [said.format(times=times[kind]) for kind, said in MISFITS.items() if times[kind] > WORST_FIT]
+        frames = self.recording.messages.frame_count
+        return said + [UNSEEN.format(frames=frames)] * (frames > 0 and not len(self.found.evidence.sightings))
 
 
 def calibrate(recording: Recording, believed: EnvConfig) -> CalibrationRun:
@@ -142,7 +152,7 @@ def residual_table(run: CalibrationRun) -> Table:
         title="Root mean square residuals",
         head=("what", "unit", "as believed", "as found"),
         rows=tuple(rows),
-        note=MISFIT.format(times=run.walls_fit) if run.walls_fit > WORST_FIT else "",
+        note=" ".join(run.misfits),
     )
 
 

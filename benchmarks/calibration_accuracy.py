@@ -83,9 +83,11 @@ def _nearest(times: Array, to: Array) -> NDArray[np.intp]:
 
 
 def sizes(errors: Sequence[Array]) -> Array:
-    """Position RMSE [mm] and heading MAE [deg] of errors (N, 3) of several runs."""
+    """Position RMSE [mm] and heading MAE [deg] of errors (N, 3) of several runs; NaN if no pose was valid."""
     e = np.concatenate(errors)
     e = e[np.isfinite(e).all(axis=1)]
+    if not len(e):
+        return np.full(2, np.nan)
     return np.array(
         [1e3 * math.sqrt((e[:, :2] ** 2).sum(axis=1).mean()), math.degrees(np.abs(e[:, 2]).mean())]
     )
@@ -122,4 +124,7 @@ def compare(spoilt: EnvConfig, calibrations: Sequence[Calibration], seed: int) -
 
 
 def _line(name: str, values: Array) -> None:
-    typer.echo(f"  {name:24s}" + "".join(f"{v:10.3f}" for v in values.tolist()))
+    shown = (
+        "".join(f"{v:10.3f}" for v in values.tolist()) if np.isfinite(values).all() else f"{'not valid':>20s}"
+    )
+    typer.echo(f"  {name:24s}{shown}")

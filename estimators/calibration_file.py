@@ -227,7 +227,9 @@ def _problems(values: Mapping[str, float], read: _Content) -> Iterator[str]:
     for name, value in values.items():
         if name not in read.standard_errors:
             yield f"standard_errors has no {name!r}"
-        if name in ("target.radius", "camera.fov") and not 0 < value < math.pi:
+        if name == "target.radius" and not value > 0:
+            yield f"{name} = {value}: must be above 0"
+        if name == "camera.fov" and not 0 < value < math.pi:
             yield f"{name} = {value}: must be above 0 and below pi"
         if name in read.not_observable:
             yield f"{name} has a value and is in not_observable as well"

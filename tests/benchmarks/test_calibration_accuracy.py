@@ -17,6 +17,14 @@ def test_sizes_are_those_of_known_errors_and_leave_out_what_was_not_valid():
     assert sizes([error, error]) == pytest.approx([5.0, 0.5])
 
 
+def test_what_was_never_valid_is_called_so(capsys):
+    found = sizes([np.full((5, 3), np.nan)])
+
+    assert np.isnan(found).all()
+    calibration_accuracy._line("as believed", found)
+    assert capsys.readouterr().out.split() == ["as", "believed", "not", "valid"]
+
+
 def test_errors_are_had_at_the_same_moments_whatever_clock_offset_is_believed(monkeypatch):
     pytest.importorskip("pybullet")
     monkeypatch.setattr(calibration_accuracy, "MOVING", 4.0)
