@@ -13,8 +13,9 @@ from estimators.poses import Array
 SAMPLES = 1024
 SPREAD = 1.6
 """Samples are drawn this much wider than the least-squares solution."""
-SOFTNESS = 0.03
-"""How far outside its pixel an edge may be, standard deviation [px]."""
+SOFTNESS = 0.01
+"""How far outside its pixel an edge may be, standard deviation [px]: of 3400 in frames of a known pose under 1 % are
+outside, by 0.005 px. What is softer widens every pixel: with 0.03 all covariances are 1.4 times too large."""
 FACETS = 0.3
 """The same where a renderer draws a round target with flat sides [px]: twelve lie up to 2.7 mm within the radius of
 0.1 m, half a pixel at 2.4 m (29.6 deg, 240 rows)."""
