@@ -37,6 +37,7 @@ class MarkerReading:
         side: Yaw of the target less its bearing, as known before the frame: which side it shows [rad]. A single frame
             says it so much worse that lasting errors would fade at rest.
         view: The first reading of the same view, if there was one before.
+        round: After how many frames the same picture comes again; see `MarkerMeasurement.round_of`.
         R: See `Reading`.
         lasting: What one standard deviation of each of its biases does to bearing and yaw (2, k) [rad].
     """
@@ -45,6 +46,7 @@ class MarkerReading:
     mount: Pose2
     side: float
     view: MarkerReading | None = None
+    round: int = 1
     R: Array = field(init=False)
     lasting: Array = field(init=False)
 
@@ -57,7 +59,8 @@ class MarkerReading:
         own = np.outer([1.0, covariance[0, 1] / covariance[0, 0]], sigma)
         aside = np.outer([1.0, seen.lean], sigma)
         rest = covariance - own @ own.T
-        share = min(seen.systematic, MOST_LASTING)
+        # Of pictures that come again in turns their mean lasts.
+        share = min(seen.systematic, MOST_LASTING) / self.round
         scale = seen.sensitivity * seen.scale_error * seen.distance
         pixels = math.sqrt(share) * np.linalg.cholesky(rest)
         lasting = np.column_stack([pixels, aside, scale, [0.0, seen.marker_error]])
@@ -110,6 +113,10 @@ class MarkerReading:
         """See `Reading`."""
         passed, turned = self._moved(before, velocities, turning)
         image, limbs = self.seen.kept(before.seen, passed, turned)
+        if self.round != before.round:
+            image = np.zeros_like(image)
+        elif self.round > 1:
+            image = self.seen.kept_in_round(self.round, before.seen, passed, turned)
         shape = np.exp(-turned / SHAPE_TURN)
         # The width is off by how limbs are read: the same on every side where pixels average, else on the same pixels.
         scale = limbs if self.seen.quantised else np.ones_like(shape)

@@ -15,11 +15,13 @@ from estimators.fused.calibration_slopes import CalibrationSlopes
 from estimators.fused.frame_reading import MarkerReading
 from estimators.fused.holonomic import Point
 from estimators.fused.models import motion_model
+from estimators.fused.readings import YAW
 from estimators.fused.scan_reading import PositionReading
 from estimators.fused.scan_repeats import RepeatedErrors
 from estimators.fused.timeline import Timeline
 from estimators.fused.track import Track
-from estimators.marker_fit import MarkerFit, MarkerMeasurement
+from estimators.fused.views import Views
+from estimators.marker_fit import MarkerFit
 from estimators.messages import ImageFrame, LaserScan, Message, PoseEstimate
 from estimators.poses import Array, Pose2
 from estimators.scan_model import PositionFix, ScanModel
@@ -86,6 +88,7 @@ class FusedEstimator:
         self._camera = calibration.camera
         self._slopes = CalibrationSlopes(calibration)
         self._repeats = RepeatedErrors(self._scans, self._slopes, calibration.target.radius)
+        self._views = Views(self._mount)
         self._model = motion_model(motion or calibration.motion, calibration)
         self.reset()
 
@@ -100,9 +103,7 @@ class FusedEstimator:
         self._track: Track | None = None
         self._lost: PoseEstimate | None = None  # the last estimate before the target was lost
         self._fix: PositionReading | None = None  # the last one that was believed
-        self._view: MarkerReading | None = None  # the first that showed the side that is seen now
-        self._seen: MarkerMeasurement | None = None  # the last frame that did
-        self._alike, self._spread = 0, np.zeros((2, 2))  # how many views did, and their mean covariance
+        self._views.reset()
         self._fix_stamp = self._yaw_stamp = -math.inf  # of what was accepted last
         self._repeats.reset()
         if self._markers is not None:
@@ -146,7 +147,7 @@ class FusedEstimator:
             self._look_everywhere(scan)
             return
         velocity = self._track.velocity()
-        target, covariance, _ = self._target(self._track, scan.stamp)
+        target, covariance, *_ = self._target(self._track, scan.stamp)
         fix = self._reading(scan, self._scans.measure(scan, target, covariance + LEAST_DOUBT, velocity))
         if (
             fix is not None
@@ -187,11 +188,11 @@ class FusedEstimator:
     def _take_frame(self, markers: MarkerFit, frame: ImageFrame) -> None:
         if self._track is None:
             return
-        target, covariance, yaw = self._target(self._track, frame.stamp)
+        target, covariance, yaw, rate = self._target(self._track, frame.stamp)
         seen = markers.measure(frame, target, covariance)
         if seen is None:
             return
-        reading = self._marker_reading(seen, seen.yaw if yaw is None else yaw)
+        reading = self._views.reading(seen, seen.yaw if yaw is None else yaw, rate)
         if not self._track.oriented or self._refused >= TURNED_AFTER:
             if self._fix is None or abs(frame.stamp - self._fix.stamp) > BLIND_AFTER:
                 return
@@ -214,28 +215,15 @@ class FusedEstimator:
             fix, mount, (self._lrf.x, self._lrf.y), abs(scan.bearing_increment), self._curve
         )
 
-    def _marker_reading(self, seen: MarkerMeasurement, yaw: float) -> MarkerReading:
-        """A frame as the filter takes it; `yaw` is the target's, as known before [rad]."""
-        side, view = yaw - seen.bearing, self._view
-        if view is not None and view.shows_side(side, seen):
-            # A frame that shows what the one before showed says nothing new of how large errors are.
-            if self._seen is None or not seen.same_samples(self._seen):
-                self._alike += 1
-                self._spread = self._spread + (seen.covariance - self._spread) / self._alike
-            self._seen = seen
-            return MarkerReading(seen.steadied(view.seen, self._spread), self._mount, side, view)
-        self._view, self._seen = MarkerReading(seen, self._mount, side), seen
-        self._alike, self._spread = 1, seen.covariance
-        return self._view
-
-    def _target(self, track: Track, stamp: float) -> tuple[Array, Array, float | None]:
-        """Expected position of the target (2,), its covariance (2, 2), and the target's yaw if known [rad]."""
+    def _target(self, track: Track, stamp: float) -> tuple[Array, Array, float | None, float]:
+        """Expected position of the target (2,), its covariance (2, 2), yaw if known [rad], turn rate [rad/s]."""
         state, P = track.at(stamp)
         covariance = P[:2, :2]
         if not track.oriented:
-            return state[:2], covariance, None
+            return state[:2], covariance, None, 0.0
         target = Pose2(x=state[0], y=state[1], yaw=float(state[2])) @ self._mount
-        return np.array([target.x, target.y]), covariance, target.yaw
+        rate = float(state[YAW + len(track.model.speed_sigmas)])
+        return np.array([target.x, target.y]), covariance, target.yaw, rate
 
     def _estimate(self) -> PoseEstimate | None:
         return self._of_track(self._track) if self._track else self._lost

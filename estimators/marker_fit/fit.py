@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -58,6 +59,7 @@ class MarkerFit:
         self._camera = CameraModel(camera)
         self._reader = ProfileReader(self._camera, camera, calibration.target)
         self._outline = TargetOutline(calibration.target, camera.focal)
+        self._period = self._outline.period
         self._associator = Associator(calibration.target, self._outline)
         self._pixels = PixelKind()
         self._method: Method = method
@@ -103,10 +105,14 @@ class MarkerFit:
         problem, start, false_colors = self._see(frame, axis, (distance, max(along, 1e-3)), aside)
         if problem is None:
             return None
-        solution = self._solve(problem, start)
-        if solution is None:
+        rough = self._solve(problem, start)
+        if rough is None:
             return None
-        return self._measurement(frame.stamp, direction, problem, solution, false_colors, (axis, aside))
+        solution, linear = rough, None
+        if problem.quantised and self._method == "photometric":
+            solution, linear = feasible_poses(problem, self._outline, rough), rough
+        found = self._measurement(frame.stamp, direction, problem, solution, false_colors, (axis, aside))
+        return found if linear is None else replace(found, linear=linear)
 
     def _see(
         self, frame: ImageFrame, axis: float, distance: tuple[float, float], sigma: float
@@ -142,8 +148,6 @@ class MarkerFit:
         worst = WORST_SAMPLED_RESIDUAL if problem.quantised else WORST_RESIDUAL
         if not math.sqrt(solution.misfit) * problem.share_error < worst:
             return None
-        if problem.quantised and self._method == "photometric":
-            solution = feasible_poses(problem, self._outline, solution)
         return solution
 
     def _whole(self, problem: Problem, start: Array) -> Solution | None:
@@ -204,4 +208,5 @@ class MarkerFit:
             direction=float(direction),
             pixels=pixels,
             samples=problem.samples,
+            period=self._period,
         )

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from estimators.marker_fit.problem import LINEAR_SWEPT, SWEPT, Solution
 from estimators.poses import Array, wrap_angle
 
 OBLIQUE = 0.6
@@ -16,6 +17,11 @@ UNTURNED = 1e-9
 SAME_PIXELS = 0.5
 """How far the view moves until its pixels say something else [px]: with several edges in the picture some edge passes
 a pixel's middle well before that."""
+MOST_ROUND = 10
+"""Frames after which pictures of a turning target that come again are looked for: an error that lasts in their mean has
+a tenth of the variance of one by then."""
+ALIKE = 2.0
+"""How far a camera sweeps until the edges have no more moved alike [px]: nearer ones move less."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -56,6 +62,10 @@ class MarkerMeasurement:
             far the circumference nearest to the camera does as it turns [px/rad].
         samples: Columns of the samples beside every edge, and the marker that each belongs to, where a pixel is one
             sample; empty where it is not.
+        period: Turn of the target after which its edges are where they were [rad].
+        linear: The least-squares solution, in the camera's frame, where another one is nearer to the truth in a single
+            frame, but does not err to both sides alike while a camera sweeps; see `swept`.
+        is_swept: Whether this is it.
     """
 
     stamp: float
@@ -79,6 +89,35 @@ class MarkerMeasurement:
     direction: float
     pixels: Array
     samples: Array
+    period: float = 2 * math.pi
+    linear: Solution | None = None
+    is_swept: bool = False
+
+    def swept(self) -> MarkerMeasurement:
+        """The same for a camera that sweeps over a target at rest: by the least-squares solution, if there is one.
+
+        Where a pixel is one sample the middle of all poses that agree with a frame is nearest to the truth, on average
+        over all poses. Over the frames of one pose it is off to one side, as it depends on where the edges lie between
+        each other. A linear solution errs by the sum of what each edge errs, which the sweep takes to both sides.
+        """
+        if self.linear is None:
+            return self
+        information = self.linear.information
+        axis, yaw, distance = (float(v) for v in self.linear.pose)
+        covariance = np.linalg.inv(information[:2, :2])
+        return replace(
+            self,
+            bearing=float(wrap_angle(self.direction + axis)),
+            yaw=float(wrap_angle(self.direction + yaw)),
+            distance=distance,
+            covariance=np.asarray(covariance * max(1.0, self.misfit), float),
+            sensitivity=-covariance @ information[:2, 2],
+            shape_error=self.shape_error * (LINEAR_SWEPT / SWEPT),
+            marker_error=self.marker_error * (LINEAR_SWEPT / SWEPT),
+            lean=float(covariance[0, 1] / covariance[0, 0]),
+            linear=None,
+            is_swept=True,
+        )
 
     def expected(self, x: float, y: float, yaw: float) -> tuple[Array, Array]:
         """What this measurement would read for a target at x, y [m], yaw [rad], and its Jacobian.
@@ -129,8 +168,32 @@ class MarkerMeasurement:
         """
         panned = math.remainder(self.direction - earlier.direction, 2 * math.pi)
         aside = self.pixels[0] * np.abs(passed - panned)
-        most = np.maximum(aside, self.pixels[1] * np.abs(turned))
+        around = self.pixels[1] * np.abs(turned)
+        if self.is_swept and earlier.is_swept:
+            limbs = sawtooth(aside)
+            return limbs * np.maximum(0.0, 1.0 - around / SAME_PIXELS), limbs
+        most = np.maximum(aside, around)
         return np.maximum(0.0, 1.0 - most / SAME_PIXELS), np.maximum(0.0, 1.0 - aside / SAME_PIXELS)
+
+    def round_of(self, turned: float) -> int:
+        """After how many frames a target that turns so far from each to the next [rad] is seen as it was.
+
+        Only colours tell a target that has turned by its `period` from one that has not. One that turns by a fifth of
+        that from frame to frame shows five pictures in all, and their mean is off as long as it goes on. 1 if it does
+        not turn, or if no picture comes again soon.
+        """
+        for n in range(1, MOST_ROUND + 1):
+            if self.pixels[1] * abs(math.remainder(n * turned, self.period)) < SAME_PIXELS:
+                return n
+        return 1
+
+    def kept_in_round(self, n: int, earlier: MarkerMeasurement, passed: Array, turned: Array) -> Array:
+        """How much of the mean error of `n` pictures that come again is left after one more: (M,), see `kept`."""
+        panned = math.remainder(self.direction - earlier.direction, 2 * math.pi)
+        aside = self.pixels[0] * n * np.abs(passed - panned)
+        off = n * turned - self.period * np.round(n * turned / self.period)
+        most = np.maximum(aside, self.pixels[1] * np.abs(off))
+        return np.asarray(np.maximum(0.0, 1.0 - most / SAME_PIXELS) ** (1 / n))
 
     def crossings(self, passed: Array, turned: Array) -> Array:
         """How often an edge passes from one sample to the next on average, if the target moved so: see `kept`."""
@@ -165,3 +228,13 @@ class MarkerMeasurement:
             return replace(self, sensitivity=earlier.sensitivity, lean=earlier.lean)
         lean = float(covariance[0, 1] / covariance[0, 0])
         return replace(self, sensitivity=earlier.sensitivity, covariance=covariance, lean=lean)
+
+
+def sawtooth(moved: Array) -> Array:
+    """Correlation (M,) of what rounding to samples errs, with the same after all edges moved alike (M,) [px].
+
+    An edge lies uniformly between two samples and is taken for their middle: over a pixel the error runs from one end
+    to the other, whose correlation with itself is 1 - 6 u (1 - u), u being the part of a pixel that it has moved.
+    """
+    part = moved % 1.0
+    return np.where(moved < ALIKE, 1.0 - 6.0 * part * (1.0 - part), 0.0)

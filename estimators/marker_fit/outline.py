@@ -16,6 +16,9 @@ GRAZING = 0.06
 """Angle from the tangent within which an end is partly taken for the limb [rad]: there it lies within two thousandths
 of a radius of it, and noise must not decide which of the two moves it."""
 
+SAME_ANGLE = 1e-3
+"""How far markers may stand from where others were for the target to look the same [rad]: 0.02 px."""
+
 
 class Outline(NamedTuple):
     """Columns of all edges and how they follow bearing, yaw and distance.
@@ -66,6 +69,18 @@ class TargetOutline:
         self._points = self._reach[:, None, None] * np.stack([np.sin(around), np.cos(around)])
         self._turned = np.stack([self._points[1], -self._points[0]])
         self._outwards = np.array([1.0, -1.0])
+
+    @property
+    def period(self) -> float:
+        """Least turn [rad] that brings every marker to where one was."""
+        count = len(self.angles)
+        for parts in range(count, 1, -1):
+            turned = self.angles[:, None] + 2 * math.pi / parts - self.angles
+            if (
+                np.abs(turned - 2 * math.pi * np.round(turned / (2 * math.pi))).min(axis=1) < SAME_ANGLE
+            ).all():
+                return 2 * math.pi / parts
+        return 2 * math.pi
 
     def at(self, axis: float, relative: float, distance: float) -> Outline:
         """Edges and derivatives.

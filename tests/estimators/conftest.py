@@ -9,6 +9,7 @@ import pytest
 from fused_messages import CALIBRATION, drive
 
 from estimators import Calibration, ImageFrame, LaserScan, Room
+from estimators.marker_fit.measurement import MarkerMeasurement
 
 HALF_A_DEGREE = math.radians(0.5)
 THESIS_VERTICES = ((-4.0, -0.03), (4.0, -0.03), (4.0, 4.0), (-4.0, 4.0))
@@ -94,3 +95,31 @@ def scan(ideal_scan):
 def driven(scan):
     """Poses by stamp, and messages, of a robot that drives straight on for a second."""
     return drive(scan)
+
+
+@pytest.fixture
+def measurement():
+    """What a frame of averaged pixels said of a target at 2 m."""
+    return MarkerMeasurement(
+        stamp=0.0,
+        bearing=1.2,
+        yaw=0.4,
+        distance=2.0,
+        covariance=np.diag([1e-6, 1e-4]),
+        sensitivity=np.array([0.02, -0.3]),
+        camera=(0.0, 0.1),
+        markers=3,
+        false_colors=0,
+        misfit=0.5,
+        quantised=False,
+        systematic=0.5,
+        limb_error=0.0,
+        shape_error=1e-5,
+        marker_error=1e-4,
+        lean=5.0,
+        scale_error=1e-3,
+        view=np.zeros(2),
+        direction=1.2,
+        pixels=np.array([450.0, 23.0]),
+        samples=np.empty(0),
+    )

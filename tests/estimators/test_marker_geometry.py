@@ -6,12 +6,13 @@ import math
 import numpy as np
 import pytest
 
-from estimators import CameraCalibration, FusedEstimator, TargetGeometry
+from estimators import CameraCalibration, TargetGeometry
 from estimators.fused.frame_reading import SHAPE_TURN, MarkerReading
 from estimators.fused.mode_filter import ModeFilter
 from estimators.fused.rolling import Unicycle
+from estimators.fused.views import Views
 from estimators.marker_fit import CameraModel
-from estimators.marker_fit.measurement import SAME_PIXELS, MarkerMeasurement
+from estimators.marker_fit.measurement import SAME_PIXELS
 from estimators.marker_fit.outline import TargetOutline
 from estimators.poses import Pose2
 
@@ -81,33 +82,6 @@ def test_markers_behind_are_not_seen():
     assert not outline.at(0.0, 0.0, 2.0).seen.any()
 
 
-@pytest.fixture
-def measurement():
-    return MarkerMeasurement(
-        stamp=0.0,
-        bearing=1.2,
-        yaw=0.4,
-        distance=2.0,
-        covariance=np.diag([1e-6, 1e-4]),
-        sensitivity=np.array([0.02, -0.3]),
-        camera=(0.0, 0.1),
-        markers=3,
-        false_colors=0,
-        misfit=0.5,
-        quantised=False,
-        systematic=0.5,
-        limb_error=0.0,
-        shape_error=1e-5,
-        marker_error=1e-4,
-        lean=5.0,
-        scale_error=1e-3,
-        view=np.zeros(2),
-        direction=1.2,
-        pixels=np.array([450.0, 23.0]),
-        samples=np.empty(0),
-    )
-
-
 def test_jacobian_of_the_measurement_is_its_derivative(measurement):
     state = np.array([0.7, 1.9, 0.4])
     _, slopes = measurement.expected(*state)
@@ -150,8 +124,8 @@ def test_frames_of_single_samples_weigh_alike_whatever_each_says_of_itself(measu
     assert kept.lean == pytest.approx(15.0)
 
 
-def test_the_filter_gives_frames_of_a_view_the_mean_of_their_covariances(calibration, measurement):
-    estimator = FusedEstimator(calibration)
+def test_frames_of_a_view_are_given_the_mean_of_their_covariances(measurement):
+    views = Views(Pose2())
     frame = dataclasses.replace(measurement, quantised=True)
     for scale, mean in (
         (1.0, 1.0),
@@ -160,9 +134,9 @@ def test_the_filter_gives_frames_of_a_view_the_mean_of_their_covariances(calibra
         (5.0, 3.0),
     ):  # the third shows what the second does
         seen = dataclasses.replace(frame, covariance=scale * frame.covariance, samples=np.array([scale]))
-        reading = estimator._marker_reading(seen, frame.yaw)
+        reading = views.reading(seen, frame.yaw, 0.0)
         np.testing.assert_allclose(reading.seen.covariance, mean * frame.covariance)
-    turned = estimator._marker_reading(frame, frame.yaw + 0.1)
+    turned = views.reading(frame, frame.yaw + 0.1, 0.0)
     np.testing.assert_allclose(turned.seen.covariance, frame.covariance)
 
 
