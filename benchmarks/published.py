@@ -22,63 +22,45 @@ TEST_POINTS: dict[str, Pose2] = {
 
 SAMPLES = 1000
 """Samples per test point (thesis, 5.1)."""
+Printed = tuple[float, float, float]
+"""x, y, yaw [m, m, deg], as printed."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class PublishedPoint:
-    """One row of tables 5.2 and 5.3: x, y, yaw [m, m, deg], as printed."""
+    """One row of tables 5.2 and 5.3."""
 
-    mean: tuple[float, float, float]
-    std: tuple[float, float, float]
-    mode: tuple[float, float, float]
-    mae: tuple[float, float, float]
+    mean: Printed
+    std: Printed
+    mode: Printed
+    mae: Printed
 
 
-THESIS: dict[str, PublishedPoint] = {
-    "A": PublishedPoint(
-        mean=(0.0000, 1.0006, 0.8728),
-        std=(0.0000, 0.0171, 0.4462),
-        mode=(0.0000, 1.0010, 1.3290),
-        mae=(0.0000, 0.0137, 0.8720),
-    ),
-    "B": PublishedPoint(
-        mean=(0.0000, 2.0013, 0.8157),
-        std=(0.0000, 0.0173, 0.6719),
-        mode=(0.0000, 2.0090, 0.1896),
-        mae=(0.0000, 0.0138, 0.8125),
-    ),
-    "C": PublishedPoint(
-        mean=(0.0000, 3.0006, 2.9460),
-        std=(0.0000, 0.0169, 0.2664),
-        mode=(0.0000, 2.9950, 2.9180),
-        mae=(0.0000, 0.0134, 2.9458),
-    ),
-    "D": PublishedPoint(
-        mean=(-2.9738, 3.0259, 5.7660),
-        std=(0.0120, 0.0123, 0.0198),
-        mode=(-2.9760, 3.0240, 5.7650),
-        mae=(0.0262, 0.0260, 5.7660),
-    ),
-    "E": PublishedPoint(
-        mean=(-2.9886, 1.0288, 359.0814),
-        std=(0.0168, 0.0060, 0.4568),
-        mode=(-2.9840, 1.0270, 359.2000),
-        mae=(0.0167, 0.0289, 0.9186),
-    ),
-    "F": PublishedPoint(
-        mean=(3.0018, 1.0044, 2.9095),
-        std=(0.0175, 0.0058, 0.5051),
-        mode=(3.0020, 1.0040, 3.0280),
-        mae=(0.0139, 0.0060, 2.9000),
-    ),
-    "G": PublishedPoint(
-        mean=(2.9998, 2.9998, 4.1862),
-        std=(0.0121, 0.0121, 0.0040),
-        mode=(3.0020, 3.0020, 4.1850),
-        mae=(0.0098, 0.0098, 4.1862),
-    ),
+TABLE_5_2: dict[str, tuple[Printed, Printed, Printed]] = {
+    "A": ((0.0000, 1.0006, 0.8728), (0.0000, 0.0171, 0.4462), (0.0000, 1.0010, 1.3290)),
+    "B": ((0.0000, 2.0013, 0.8157), (0.0000, 0.0173, 0.6719), (0.0000, 2.0090, 0.1896)),
+    "C": ((0.0000, 3.0006, 2.9460), (0.0000, 0.0169, 0.2664), (0.0000, 2.9950, 2.9180)),
+    "D": ((-2.9738, 3.0259, 5.7660), (0.0120, 0.0123, 0.0198), (-2.9760, 3.0240, 5.7650)),
+    "E": ((-2.9886, 1.0288, 359.0814), (0.0168, 0.0060, 0.4568), (-2.9840, 1.0270, 359.2000)),
+    "F": ((3.0018, 1.0044, 2.9095), (0.0175, 0.0058, 0.5051), (3.0020, 1.0040, 3.0280)),
+    "G": ((2.9998, 2.9998, 4.1862), (0.0121, 0.0121, 0.0040), (3.0020, 3.0020, 4.1850)),
 }
-"""Thesis, tables 5.2 (mean, standard deviation, mode) and 5.3 (mean absolute error)."""
+"""Mean, standard deviation and mode."""
+TABLE_5_3: dict[str, Printed] = {
+    "A": (0.0000, 0.0137, 0.8720),
+    "B": (0.0000, 0.0138, 0.8125),
+    "C": (0.0000, 0.0134, 2.9458),
+    "D": (0.0262, 0.0260, 5.7660),
+    "E": (0.0167, 0.0289, 0.9186),
+    "F": (0.0139, 0.0060, 2.9000),
+    "G": (0.0098, 0.0098, 4.1862),
+}
+"""Mean absolute error."""
+THESIS: dict[str, PublishedPoint] = {
+    name: PublishedPoint(mean=mean, std=std, mode=mode, mae=TABLE_5_3[name])
+    for name, (mean, std, mode) in TABLE_5_2.items()
+}
+"""Thesis, tables 5.2 and 5.3."""
 
 
 def thesis_average_mae() -> Array:

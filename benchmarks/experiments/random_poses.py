@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
@@ -36,11 +37,8 @@ def rest_runs(
     Raises:
         ConfigError: If the room is too small.
     """
-    rng = np.random.default_rng(seed)
-    room = config.room.in_station_frame()
     found = []
-    for of in seed.generate_state(runs).tolist():
-        pose = _random_pose(room, config, rng)
+    for of, pose, _, _ in _starts(config, runs, seed):
         run = Run(config=config, methods=methods, pose=pose, actions=standing(config, 0), seed=of)
         still = round(REST_SECONDS / config.timing.step) - run.settle
         found.append(Run(config=config, methods=methods, pose=pose, actions=standing(config, still), seed=of))
@@ -55,12 +53,9 @@ def drive_runs(
     Raises:
         ConfigError: If the room is too small.
     """
-    rng = np.random.default_rng(seed)
-    room = config.room.in_station_frame()
     step = config.timing.step
     found = []
-    for of in seed.generate_state(runs).tolist():
-        pose = _random_pose(room, config, rng)
+    for of, pose, room, rng in _starts(config, runs, seed):
         here, segments = pose, list[Segment]()
         while sum(duration for duration, _, _ in segments) < DRIVE_SECONDS:
             move = _random_move(config, rng)
@@ -76,6 +71,16 @@ def drive_runs(
 def dithered(config: EnvConfig) -> EnvConfig | None:
     """The same with a pan unit that sweeps a little; None if there is no camera."""
     return load_config(config, DITHER) if config.camera.enabled else None
+
+
+def _starts(
+    config: EnvConfig, runs: int, seed: np.random.SeedSequence
+) -> Iterator[tuple[int, Pose2, Room, np.random.Generator]]:
+    """Of each run its seed and its pose, with the room and the generator that the pose was drawn from."""
+    rng = np.random.default_rng(seed)
+    room = config.room.in_station_frame()
+    for of in seed.generate_state(runs).tolist():
+        yield of, _random_pose(room, config, rng), room, rng
 
 
 def _allowed(room: Room, config: EnvConfig, x: float, y: float) -> bool:

@@ -37,6 +37,14 @@ def shade(
 
 
 @compiled
+def cosines(scene: Tables, placed: Placed, lamp: Floats, nx: float, ny: float, nz: float) -> Floats:
+    """Between a normal and the lamps (L,), 0 where it is turned away; they hold until they are asked for again."""
+    for n in range(scene.lamp_count):
+        placed.cosines[n] = max(nx * lamp[n, 0] + ny * lamp[n, 1] + nz * lamp[n, 2], 0.0)
+    return placed.cosines
+
+
+@compiled
 def on_upright(
     scene: Tables, placed: Placed, lamp: int, casters: int, depth: float, right: float
 ) -> tuple[float, float, float, float]:

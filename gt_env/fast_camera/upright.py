@@ -8,7 +8,7 @@ from gt_env.fast_camera.crossing import cut_box, cut_disc, row_of
 from gt_env.fast_camera.layout import BODY, MARKERS, Tables
 from gt_env.fast_camera.placed import Placed
 from gt_env.fast_camera.receivers import level_shadow, upright_shadow
-from gt_env.fast_camera.shadow import BY_BODY, BY_TARGET, shade
+from gt_env.fast_camera.shadow import BY_BODY, BY_TARGET, cosines, shade
 from gt_env.fast_camera.solids import Floats
 
 
@@ -96,18 +96,15 @@ def tube(
     cut = paint(bands, top_a, top_b, low_a, low_b, rgb)
     slab, near, far = (ka, kb), (first_a, first_b), (last_a, last_b)
     if scene.shadow and casts:
-        for n in range(scene.lamp_count):
-            placed.cosines[n] = max(normal_depth * placed.lamp[n, 0] + normal_right * placed.lamp[n, 1], 0.0)
-        facing, rows = placed.cosines, (top_a, top_b, low_a, low_b)
+        facing = cosines(scene, placed, placed.lamp, normal_depth, normal_right, 0.0)
+        rows = (top_a, top_b, low_a, low_b)
         cut = min(cut, upright_shadow(scene, placed, bands, albedo, facing, casts, slab, near, rows))
     if scene.eye[2] > high:
         back_a, back_b = _bowed(scene, high, last_a, last, last_b)
         rgb = shade(scene, placed.lamp, albedo, 0.0, 0.0, 1.0)
         cut = min(cut, paint(bands, back_a, back_b, top_a, top_b, rgb))
         if scene.shadow and casts & BY_TARGET:  # nothing stands above the target itself
-            for n in range(scene.lamp_count):
-                placed.cosines[n] = max(placed.lamp[n, 2], 0.0)
-            facing = placed.cosines
+            facing = cosines(scene, placed, placed.lamp, 0.0, 0.0, 1.0)
             cut = min(cut, level_shadow(scene, placed, bands, albedo, facing, casts, high, slab, near, far))
     if scene.eye[2] < low:
         back_a, back_b = _bowed(scene, low, last_a, last, last_b)

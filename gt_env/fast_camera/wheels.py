@@ -10,7 +10,7 @@ from gt_env.fast_camera.crossing import see_ball, see_wheel, tread_normal
 from gt_env.fast_camera.layout import Tables
 from gt_env.fast_camera.placed import Placed
 from gt_env.fast_camera.receivers import point_shade, upright_shadow
-from gt_env.fast_camera.shadow import BY_BODY, BY_TARGET, shade
+from gt_env.fast_camera.shadow import BY_BODY, BY_TARGET, cosines, shade
 from gt_env.fast_camera.upright import straighten
 
 
@@ -42,10 +42,8 @@ def paint_wheel(
         rgb = shade(scene, placed.robot_lamp, scene.wheel_color, face_x, face_y, 0.0)
         cut = min(cut, paint(bands, face_a, face_b, under_a, under_b, rgb))
         if scene.shadow:
-            for n in range(scene.lamp_count):
-                cosine = face_x * placed.robot_lamp[n, 0] + face_y * placed.robot_lamp[n, 1]
-                placed.cosines[n] = max(cosine, 0.0)
-            color, facing, casts = scene.wheel_color, placed.cosines, BY_TARGET + BY_BODY
+            facing = cosines(scene, placed, placed.robot_lamp, face_x, face_y, 0.0)
+            color, casts = scene.wheel_color, BY_TARGET + BY_BODY
             slab, near, rows = (ka, kb), (at[5], bt[5]), (face_a, face_b, under_a, under_b)
             cut = min(cut, upright_shadow(scene, placed, bands, color, facing, casts, slab, near, rows))
         cut = min(cut, _tread(scene, placed, bands, i, km, top_a, top_b, face_a, face_b))
