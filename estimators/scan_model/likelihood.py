@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -49,9 +50,17 @@ class Box:
     def nodes(self, n_u: int, n_v: int) -> tuple[Array, Array]:
         """Evenly spaced coordinates (n_u,), (n_v,) over it [m]."""
         return (
-            self.u + self.half_u * np.linspace(-1.0, 1.0, n_u),
-            self.v + self.half_v * np.linspace(-1.0, 1.0, n_v),
+            self.u + self.half_u * _unit_nodes(n_u),
+            self.v + self.half_v * _unit_nodes(n_v),
         )
+
+
+@lru_cache(maxsize=256)
+def _unit_nodes(n: int) -> Array:
+    """Evenly spaced from -1 to 1 (n,); grids of few sizes are laid a hundred thousand times."""
+    nodes = np.linspace(-1.0, 1.0, n)
+    nodes.setflags(write=False)
+    return nodes
 
 
 def log_likelihood_ratio(
