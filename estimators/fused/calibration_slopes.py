@@ -1,10 +1,12 @@
 """How what is read would differ, were the station's calibration another.
 
-The filter takes the calibration as it is given. Along with its state it carries the derivatives of that state by the
-calibrated quantities: each measurement moves them with the same gain as the state. The calibration's own covariance,
-through these derivatives, adds to the filter's what an unknown constant adds (the consider covariance of Schmidt,
-"Application of state-space methods to navigation problems", Advances in Control Systems 3, 1966), with the gain left
-as it is: no estimate depends on it.
+The filter carries, along with its state, the derivatives of that state by the calibrated quantities: each measurement
+moves them with the same gain as the state. What measurements say of the quantities themselves, and what they leave
+open, follows from these: see `second_stage`.
+
+The state is told by the camera's clock, with which nothing that turns fast has to be told by a clock that may be off:
+a frame reads it as it is, a scan by what it moves in the meantime, far less than a scan can tell. What is stated is
+told by the LRF's.
 """
 
 from __future__ import annotations
@@ -61,18 +63,24 @@ class CalibrationSlopes:
             return slopes
         if isinstance(reading, PositionReading):
             slopes[:] = self._of_fix(reading)
+            if model.oriented:
+                slopes[:, :, Q.CLOCK_OFFSET] = -model.velocities(states)
         elif isinstance(reading, MarkerReading):
             slopes[:] = self._of_frame(reading)
             slopes[:, :, Q.CAMERA_X : Q.CAMERA_Y + 1] = H[:, :, :2]
-            # A clock that stamps later: what is read belongs to an earlier time.
-            rate = states[:, YAW + len(model.speed_sigmas)]
-            speeds = np.column_stack([model.velocities(states), rate])
-            slopes[:, :, Q.CLOCK_OFFSET] = (H[:, :, : YAW + 1] @ speeds[:, :, None])[:, :, 0]
         return slopes
 
-    def widened(self, P: Array, slopes: Array) -> Array:
-        """Covariance (n, n) of a state with what the calibration leaves open, from its derivatives (n, q)."""
-        return P + slopes @ self.covariance @ slopes.T if self.count else P
+    def of_pose(self, model: MotionModel, state: Array, J: Array) -> Array:
+        """Derivatives (n, q) of a state (n,) by the LRF's clock, from those by the camera's `J` (n, q).
+
+        A clock that stamps later: what was seen belongs to an earlier time.
+        """
+        if not self.count or not model.oriented:
+            return J
+        moved = J.copy()
+        moved[:YAW, Q.CLOCK_OFFSET] += model.velocities(state[None])[0]
+        moved[YAW, Q.CLOCK_OFFSET] += state[YAW + len(model.speed_sigmas)]
+        return moved
 
     def of_fix_open(self, reading: PositionReading) -> Array:
         """Covariance (2, 2) of where beams met the target that the calibration leaves open [m^2]."""

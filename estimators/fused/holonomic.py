@@ -12,6 +12,7 @@ class Holonomic:
     """A robot that moves in any direction: states x, y, yaw, vx, vy, omega and the biases."""
 
     size = 6 + BIASES
+    oriented = True
     speed_sigmas: tuple[float, ...] = (0.7, 0.7, 3.0)
     # Where it goes says nothing of how it turns, so the two may change apart. To turn at a constant speed is to
     # accelerate sideways, which no mode without acceleration would follow.
@@ -47,6 +48,7 @@ class Holonomic:
 class Point(Holonomic):
     """What scans alone show: a robot without a heading, whatever its kind."""
 
+    oriented = False
     modes: tuple[Mode, ...] = (
         Mode(name="rest", duration=10.0, acceleration=0.0, turning=0.0),
         Mode(name="cruise", duration=3.0, acceleration=0.03, turning=0.05),

@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 
 from estimators.fused.motion import BIASES, CREEP, MotionModel, switching
+from estimators.fused.second_stage import SecondStage
 from estimators.poses import Array, wrap_angle
 
 YAW: Final = 2
@@ -61,11 +62,18 @@ class ModeFilter:
         P: Their covariances (M, n, n).
         weights: Probabilities of the modes (M,).
         J: Derivatives (M, n, q) of the states by what is calibrated.
+        off: What the calibration is off by, as far as measurements say (q,).
+        open: Covariance (q, q) of what they leave open of that.
+
+    What is calibrated is estimated as well: `x` and `P` are those of a calibration that is exact, and what it is off by
+    follows from what is left of the measurements, see `second_stage`. Together they are what one filter over both
+    would say.
     """
 
-    def __init__(self, model: MotionModel, quantities: int = 0) -> None:
+    def __init__(self, model: MotionModel, calibrated: Array | None = None) -> None:
         self.model = model
-        self.J = np.zeros((len(model.modes), model.size, quantities))
+        self._calibrated = np.empty((0, 0)) if calibrated is None else calibrated
+        self.J = np.zeros((len(model.modes), model.size, len(self._calibrated)))
         self._rest = np.flatnonzero([m.at_rest for m in model.modes])
         self._speeds = slice(YAW + 1, YAW + 1 + len(model.speed_sigmas))
         self._stops = np.diag(np.square([STOPPED[0]] * (len(model.speed_sigmas) - 1) + [STOPPED[1]]))
@@ -86,6 +94,7 @@ class ModeFilter:
         self._stop_resting()
         self.weights = np.full(m, 1 / m)
         self.J = np.zeros_like(self.J)
+        self.off, self.open = np.zeros(len(self._calibrated)), self._calibrated
 
     def predict(self, dt: float) -> None:
         """Let `dt` [s] pass, not negative."""
@@ -146,23 +155,29 @@ class ModeFilter:
         PHt = self.P @ H.transpose(0, 2, 1)
         S = H @ PHt + R
         S_inverse = np.linalg.inv(S)
-        distance = (residual * (S_inverse @ residual[:, :, None])[:, :, 0]).sum(axis=1)
+        stage = None
+        new, S_new, S_new_inverse = residual, S, S_inverse
+        if slopes and self.J.size:
+            by_calibration = slopes(self.x, H)
+            stage = SecondStage(self.off, self.open, by_calibration - H @ self.J, residual, S)
+            new, S_new, S_new_inverse = stage.residual, stage.S, stage.S_inverse
+        distance = (new * (S_new_inverse @ new[:, :, None])[:, :, 0]).sum(axis=1)
         accepted = bool(distance.min() <= gate)
-        innovation = self._mixed_innovation(residual, S, accepted)
+        innovation = self._mixed_innovation(new, S_new, accepted)
         if not accepted:
             return innovation
         K = PHt @ S_inverse
-        by_calibration = slopes(self.x, H) if slopes and self.J.size else None
         self.x = self.x + (K @ residual[:, :, None])[:, :, 0]
         # Joseph's form keeps the covariance symmetric and positive.
         A = self._eye - K @ H
         self.P = A @ self.P @ A.transpose(0, 2, 1) + K @ R @ K.transpose(0, 2, 1)
-        if by_calibration is not None:
-            self.J = A @ self.J + K @ by_calibration
-        log_likelihood = plausible(-0.5 * (distance + np.log(np.linalg.det(S))))
+        log_likelihood = plausible(-0.5 * (distance + np.log(np.linalg.det(S_new))))
         weights = self.weights * np.exp(log_likelihood - log_likelihood.max())
         weights = np.maximum(weights / weights.sum(), LEAST_WEIGHT)
         self.weights = weights / weights.sum()
+        if stage is not None:
+            self.J = A @ self.J + K @ by_calibration
+            self.off, self.open = stage.learnt(self.weights)
         return innovation
 
     def turning(self) -> Array:
@@ -170,8 +185,8 @@ class ModeFilter:
         return turning(self.model, self.x, self.P)
 
     def combined(self) -> tuple[Array, Array]:
-        """State (n,) and covariance (n, n) over all modes."""
-        x, P = _mixtures(self.weights[:, None], self.x, self.P)
+        """State (n,) and covariance (n, n) over all modes, the calibration taken for exact."""
+        x, P = self._mixed(self.weights[:, None])
         return x[0], P[0]
 
     def combined_slopes(self) -> Array:
@@ -192,10 +207,19 @@ class ModeFilter:
         joint = chances * self.weights[:, None]
         weights = joint.sum(axis=0)
         shares = joint / weights
-        self.x, self.P = _mixtures(shares, self.x, self.P)
+        self.x, self.P = self._mixed(shares)
         if self.J.size:
             self.J = np.tensordot(shares, self.J, (0, 0))
         self.weights = weights
+
+    def _mixed(self, shares: Array) -> tuple[Array, Array]:
+        """States (J, n) and covariances (J, n, n) of mixtures of the modes with shares (M, J)."""
+        if not self.J.size:
+            return _mixtures(shares, self.x, self.P)
+        # What the calibration is known to be off by moves modes apart that it is not a difference between.
+        moved = self.J @ self.off
+        x, P = _mixtures(shares, self.x - moved, self.P)
+        return x + shares.T @ moved, P
 
     def _stop_resting(self) -> None:
         """In a mode at rest the velocities are zero, and known to be; all arrays are fresh."""

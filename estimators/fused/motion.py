@@ -52,6 +52,8 @@ class MotionModel(Protocol):
 
     size: int
     """Number of states."""
+    oriented: bool
+    """Whether what moves has a heading, and frames are taken."""
     speed_sigmas: tuple[float, ...]
     """Standard deviations of the velocities when nothing is known of them."""
     modes: tuple[Mode, ...]

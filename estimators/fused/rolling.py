@@ -24,6 +24,7 @@ class Unicycle:
     """
 
     size = 6 + BIASES
+    oriented = True
     speed_sigmas: tuple[float, ...] = (0.7, 3.0)
     # Heading and way are known so differently well that a change of the one must not need one of the other to be seen.
     modes: tuple[Mode, ...] = (

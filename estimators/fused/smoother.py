@@ -15,6 +15,7 @@ import numpy as np
 
 from estimators.fused.mode_filter import turning
 from estimators.fused.motion import BIASES, CREEP, switching
+from estimators.fused.second_stage import SecondStage, corrected
 from estimators.fused.track import Moment, Track
 from estimators.poses import Array, wrap_angle
 
@@ -43,17 +44,24 @@ def smoothed(track: Track, moments: Sequence[Moment]) -> list[tuple[Array, Array
     """State (n,) and covariance (n, n) at each moment, given all of them; with what the calibration leaves open."""
     if not moments:
         return []
-    steps = _forward(track, moments, _modes(track, moments))
+    steps, off, open_ = _forward(track, moments, _modes(track, moments))
     _, _, _, x, P, _, J = steps[-1]
-    results = [(x, track.slopes.widened(P, J))]
+    results = [_stated(track, x, P, J, off, open_)]
     for before, after in zip(steps[-2::-1], steps[:0:-1], strict=True):
         G = np.linalg.solve(after.P_predicted, after.A @ before.P).T
         x = before.x + G @ (x - after.predicted)
         P = before.P + G @ (P - after.P_predicted) @ G.T
         P = 0.5 * (P + P.T)
         J = before.J + G @ (J - after.J_predicted)
-        results.append((x, track.slopes.widened(P, J)))
+        results.append(_stated(track, x, P, J, off, open_))
     return results[::-1]
+
+
+def _stated(track: Track, x: Array, P: Array, J: Array, off: Array, open_: Array) -> tuple[Array, Array]:
+    """State and covariance with what is known of what the calibration is off by, if it may be off."""
+    if not off.size:
+        return x, P
+    return corrected(x, P, track.slopes.of_pose(track.model, x, J), off, open_)
 
 
 def _modes(track: Track, moments: Sequence[Moment]) -> Array:
@@ -73,14 +81,19 @@ def _modes(track: Track, moments: Sequence[Moment]) -> Array:
     return blurred
 
 
-def _forward(track: Track, moments: Sequence[Moment], modes: Array) -> list[_Step]:
-    """Filter with the noise that the modes (T, M) make expected."""
+def _forward(track: Track, moments: Sequence[Moment], modes: Array) -> tuple[list[_Step], Array, Array]:
+    """Filter with the noise that the modes (T, M) make expected.
+
+    Returns:
+        Its steps, what the calibration is off by (q,) from all of them, and the covariance (q, q) of that.
+    """
     model, n = track.model, track.model.size
     densities = np.square([(m.acceleration, m.turning) for m in model.modes])
     rest = np.array([m.at_rest for m in model.modes])
     creep = np.zeros((n, n))
     creep[:3, :3] = np.diag(CREEP)
     x, P, J = track.start
+    off, open_ = moments[0].off, moments[0].open
     steps = [_Step(x, P, np.eye(n), x, P, J, J)]
     for (before, moment), chance in zip(pairwise(moments), modes[1:], strict=True):
         reading = moment.reading
@@ -99,16 +112,18 @@ def _forward(track: Track, moments: Sequence[Moment], modes: Array) -> list[_Ste
         predicted, P_predicted, J_predicted = x, P, J
         if chance[rest].sum() > RESTS:
             speeds = np.eye(n)[3 : 3 + len(model.speed_sigmas)]
-            none = np.zeros((len(speeds), J.shape[1]))
-            x, P, J = _update(x, P, J, -(speeds @ x), speeds, STANDS**2 * np.eye(len(speeds)), none)
+            none, R = np.zeros((len(speeds), J.shape[1])), STANDS**2 * np.eye(len(speeds))
+            off, open_ = _learnt(off, open_, P, J, -(speeds @ x), speeds, R, none)
+            x, P, J = _update(x, P, J, -(speeds @ x), speeds, R, none)
         if moment.accepted:
             expected, H = reading.expected(x[None])
             residual = reading.z - expected[0]
             residual[reading.angles] = wrap_angle(residual[reading.angles])
             by_calibration = track.slopes.of(reading, model, x[None], H)[0]
+            off, open_ = _learnt(off, open_, P, J, residual, H[0], reading.R, by_calibration)
             x, P, J = _update(x, P, J, residual, H[0], reading.R, by_calibration)
         steps.append(_Step(predicted, P_predicted, A, x, P, J_predicted, J))
-    return steps
+    return steps, off, open_
 
 
 def _update(
@@ -118,3 +133,13 @@ def _update(
     K = np.linalg.solve(H @ P @ H.T + R, H @ P).T
     A = np.eye(len(x)) - K @ H
     return x + K @ residual, A @ P @ A.T + K @ R @ K.T, A @ J + K @ slopes
+
+
+def _learnt(
+    off: Array, open_: Array, P: Array, J: Array, residual: Array, H: Array, R: Array, slopes: Array
+) -> tuple[Array, Array]:
+    """What the calibration is off by (q,) after a measurement, and the covariance (q, q) of that."""
+    if not off.size:
+        return off, open_
+    D, S = slopes - H @ J, H @ P @ H.T + R
+    return SecondStage(off, open_, D[None], residual[None], S[None]).learnt(np.ones(1))

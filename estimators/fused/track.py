@@ -13,6 +13,7 @@ from estimators.fused.mode_filter import Innovation, ModeFilter, Slopes
 from estimators.fused.motion import MotionModel
 from estimators.fused.readings import Reading
 from estimators.fused.scan_reading import PositionReading
+from estimators.fused.second_stage import corrected
 from estimators.poses import Array, Pose2
 
 GATE: Final = 18.4
@@ -33,6 +34,8 @@ class Moment:
         weights: Probabilities of the modes (M,).
         latest: The latest reading of each kind.
         J: Derivatives of the states by what is calibrated (M, n, q).
+        off: What that is off by, as far as is known (q,).
+        open: Covariance of that (q, q).
     """
 
     reading: Reading
@@ -42,6 +45,8 @@ class Moment:
     weights: Array
     latest: dict[type, Reading]
     J: Array
+    off: Array
+    open: Array
 
     @property
     def accepted(self) -> bool:
@@ -80,7 +85,7 @@ class Track:
         self.slopes = slopes
         self.oriented = seen is not None
         self.first_stamp = first.stamp
-        self._filter = ModeFilter(model, slopes.count)
+        self._filter = ModeFilter(model, slopes.covariance)
         base = seen.first_pose(first.z) if seen else Pose2(x=float(first.z[0]), y=float(first.z[1]))
         self._filter.start(base.x, base.y, base.yaw)
         self._filter.update(
@@ -115,8 +120,11 @@ class Track:
     def now(self) -> tuple[Array, Array]:
         """State (n,) and covariance (n, n) at the latest measurement, with what the calibration leaves open."""
         self._predict(self._moments[-1], self.stamp)
-        state, P = self._filter.combined()
-        return state, self.slopes.widened(P, self._filter.combined_slopes()) if self.slopes.count else P
+        f = self._filter
+        state, P = f.combined()
+        if not self.slopes.count:
+            return state, P
+        return corrected(state, P, self.slopes.of_pose(f.model, state, f.combined_slopes()), f.off, f.open)
 
     def velocity(self) -> Array:
         """vx, vy (2,) at the latest measurement [m/s]."""
@@ -170,12 +178,13 @@ class Track:
             return
         f = self._filter
         f.x, f.P, f.weights, f.J = moment.x, moment.P, moment.weights, moment.J
+        f.off, f.open = moment.off, moment.open
         f.predict(stamp - moment.reading.stamp)
         self._ahead = moment, stamp
 
     def _moment(self, reading: Reading, innovation: Innovation | None, latest: dict[type, Reading]) -> Moment:
         f = self._filter
-        return Moment(reading, innovation, f.x, f.P, f.weights, latest, f.J)
+        return Moment(reading, innovation, f.x, f.P, f.weights, latest, f.J, f.off, f.open)
 
     def _slopes(self, reading: Reading) -> Slopes | None:
         """How the filter's measurement follows what is calibrated; None if that is taken to be exact."""
