@@ -6,15 +6,18 @@ from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
-from scipy.sparse import diags_array
+from scipy.sparse import csr_matrix, diags_array, hstack
 from scipy.sparse.linalg import splu
 
 from estimators.poses import Array
 from estimators.self_calibration.corner_rows import CornerSightings, corner_rows
+from estimators.self_calibration.edges import Edges, edge_rows
 from estimators.self_calibration.places import Places, RadiusEvidence
 from estimators.self_calibration.quantities import PRIOR, Q
 from estimators.self_calibration.rows import (
+    ROUGHNESS,
     Rows,
+    Sparse,
     bend_rows,
     place_rows,
     sighting_rows,
@@ -48,6 +51,8 @@ class Evidence:
         sightings: Of the target, by the camera; may be empty.
         image_height: [px].
         corners: Of the room, by the camera; may be empty.
+        edges: Of the target, by single beams; may be empty.
+        roughness: What the target's track does not follow [m].
     """
 
     walls: Walls
@@ -56,6 +61,8 @@ class Evidence:
     sightings: Sightings
     image_height: int
     corners: CornerSightings = field(default_factory=CornerSightings.none)
+    edges: Edges = field(default_factory=Edges.none)
+    roughness: float = ROUGHNESS[1]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,6 +75,7 @@ class Solution:
         knots: Of the target's track.
         track: Its coefficients (count, 2).
         residuals: Weighted root mean square residual of each kind, in standard deviations.
+        common: What all widths in the image have in common, in units of `rows.WIDTH_BIAS`.
     """
 
     values: Array
@@ -75,6 +83,7 @@ class Solution:
     knots: Knots
     track: Array
     residuals: dict[str, float]
+    common: float = 0.0
 
     def place(self, time: float) -> Array:
         """Of the target (2,) at a time of the LRF's clock [m]."""
@@ -96,23 +105,28 @@ def first_track(places: Places, values: Array) -> tuple[Knots, Array]:
     return knots, np.column_stack([np.interp(times, places.stamps, p) for p in points.T])
 
 
-def solve(evidence: Evidence, values: Array, believed: Array) -> Solution:
+def solve(
+    evidence: Evidence, values: Array, believed: Array, along: tuple[Knots, Array] | None = None
+) -> Solution:
     """Find quantities and track.
 
     Args:
         evidence: What was measured; at least two places.
         values: The quantities (10,) to start from.
         believed: The same as they were believed, which hold as far as nothing else is known.
+        along: Knots and coefficients of a track to start from; None for one from place to place.
     """
-    knots, track = first_track(evidence.places, values)
+    knots, track = along or first_track(evidence.places, values)
+    common = 0.0
     for _ in range(MOST_STEPS):
-        system = _System(_rows(evidence, values, knots, track), evidence, values, believed)
-        step, bend = system.step()
-        values, track = values + step, track + bend.reshape(track.shape)
+        rows = _rows(evidence, values, knots, track, common)
+        system = _System(rows, evidence, values, believed, common)
+        step, bend, more = system.step()
+        values, track, common = values + step, track + bend.reshape(track.shape), common + more
         if np.abs(step / np.sqrt(np.diag(system.covariance))).max() < CONVERGED:
             break
-    system = _System(_rows(evidence, values, knots, track), evidence, values, believed)
-    return Solution(values, system.honest_covariance(), knots, track, system.residuals())
+    system = _System(_rows(evidence, values, knots, track, common), evidence, values, believed, common)
+    return Solution(values, system.honest_covariance(), knots, track, system.residuals(), common)
 
 
 def bound(evidence: Evidence, solution: Solution, believed: Array) -> Array:
@@ -120,39 +134,47 @@ def bound(evidence: Evidence, solution: Solution, believed: Array) -> Array:
 
     The inverse of the Fisher information of all measurements together, the track unknown (Cramer and Rao).
     """
-    rows = _rows(evidence, solution.values, solution.knots, solution.track)
-    return _System(rows, evidence, solution.values, believed).covariance
+    rows = _rows(evidence, solution.values, solution.knots, solution.track, solution.common)
+    return _System(rows, evidence, solution.values, believed, solution.common).covariance
 
 
-def _rows(evidence: Evidence, values: Array, knots: Knots, track: Array) -> dict[str, Rows]:
+def _rows(evidence: Evidence, values: Array, knots: Knots, track: Array, common: float) -> dict[str, Rows]:
+    height, roughness = evidence.image_height, evidence.roughness
     rows = {
-        "places": place_rows(evidence.places, values, knots, track),
+        "places": place_rows(evidence.places, values, knots, track, evidence.edges.places),
         "bends": bend_rows(knots, track),
     }
     if len(evidence.sightings):
-        rows["columns"] = sighting_rows(evidence.sightings, values, evidence.image_height, knots, track)
+        rows["columns"] = sighting_rows(evidence.sightings, values, height, knots, track, roughness)
         if np.isfinite(evidence.sightings.distances).any():
-            rows["widths"] = width_rows(evidence.sightings, values, evidence.image_height, knots, track)
+            rows["widths"] = width_rows(evidence.sightings, values, height, knots, track, roughness, common)
+    if len(evidence.edges):
+        rows["edges"] = edge_rows(evidence.edges, values, knots, track, roughness)
     if len(evidence.corners):
-        rows["corners"] = corner_rows(evidence.corners, values, evidence.image_height, track)
+        rows["corners"] = corner_rows(evidence.corners, values, height, track)
     return rows
 
 
 class _System:
     """The normal equations of one step, the track eliminated."""
 
-    def __init__(self, rows: dict[str, Rows], evidence: Evidence, values: Array, believed: Array) -> None:
+    def __init__(
+        self, rows: dict[str, Rows], evidence: Evidence, values: Array, believed: Array, common: float
+    ) -> None:
         self._rows = rows
         self._weights = {kind: _weights(kind, part) for kind, part in rows.items()}
         self._fixed = _fixed_rows(evidence, values)
-        n = next(iter(rows.values())).by_track.shape[1]
-        track_information = diags_array(np.full(n, 1e-9))
+        # What widths have in common is eliminated along with the track, as one more of its numbers.
+        self._by_track = {kind: _with_common(part) for kind, part in rows.items()}
+        n = next(iter(self._by_track.values())).shape[1]
+        track_information = diags_array(np.append(np.full(n - 1, 1e-9), 1.0))
         mixed, own = np.zeros((n, len(Q))), np.diag(PRIOR**-2)
-        track_gradient: Array = np.zeros(n)
+        track_gradient: Array = np.append(np.zeros(n - 1), common)
         gradient: Array = (values - believed) / PRIOR**2
         for kind, part in rows.items():
-            weighted = part.by_track.multiply(self._weights[kind][:, None]).tocsr()
-            track_information = track_information + part.by_track.T @ weighted
+            by_track = self._by_track[kind]
+            weighted = by_track.multiply(self._weights[kind][:, None]).tocsr()
+            track_information = track_information + by_track.T @ weighted
             mixed = mixed + weighted.T @ part.by_quantity
             own = own + part.by_quantity.T @ (self._weights[kind][:, None] * part.by_quantity)
             gradient = gradient + part.by_quantity.T @ (self._weights[kind] * part.residual)
@@ -167,10 +189,11 @@ class _System:
         self.covariance: Array = np.linalg.inv(0.5 * (information + information.T))
         self._gradient = gradient - mixed.T @ self._track_step
 
-    def step(self) -> tuple[Array, Array]:
-        """Of the quantities (10,) and of the track (n,)."""
+    def step(self) -> tuple[Array, Array, float]:
+        """Of the quantities (10,), of the track (n,), and of what widths have in common."""
         step = -self.covariance @ self._gradient
-        return step, -self._track_step - self._followed @ step
+        track = -self._track_step - self._followed @ step
+        return step, track[:-1], float(track[-1])
 
     def honest_covariance(self) -> Array:
         """The larger of two, quantity by quantity: as the noise is believed, and as the residuals scatter.
@@ -181,7 +204,7 @@ class _System:
         spread = np.diag(PRIOR**-2)
         blocks: dict[int, Array] = {}
         for kind, part in self._rows.items():
-            slopes = part.by_quantity - part.by_track @ self._followed
+            slopes = part.by_quantity - self._by_track[kind] @ self._followed
             scores = slopes * (self._weights[kind] * part.residual)[:, None]
             for block in np.unique(numbers := np.floor(part.stamps / BLOCK).astype(int)):
                 blocks[block] = blocks.get(block, 0.0) + scores[numbers == block].sum(axis=0)
@@ -206,6 +229,12 @@ class _System:
         return found
 
 
+def _with_common(part: Rows) -> Sparse:
+    """Derivatives (N, n + 1) by the track and by what widths have in common."""
+    by_common = np.zeros(len(part.residual)) if part.by_common is None else part.by_common
+    return hstack([part.by_track, csr_matrix(by_common[:, None])]).tocsr()
+
+
 def _weights(kind: str, part: Rows) -> Array:
     """Of each row (N,): outliers count less, and accelerations by how large they are."""
     square = (part.residual.reshape(-1, part.width) ** 2).sum(axis=1)
@@ -220,7 +249,7 @@ def _weights(kind: str, part: Rows) -> Array:
 def _fixed_rows(evidence: Evidence, values: Array) -> dict[str, tuple[Array, Array]]:
     """What does not depend on the track: walls and radius, residuals and slopes."""
     rows = {"walls": evidence.walls.rows(values)}
-    if evidence.radius is not None:
+    if evidence.radius is not None and not len(evidence.edges):
         slopes = np.zeros((1, len(Q)))
         slopes[0, Q.RADIUS] = -1 / evidence.radius.sigma
         rows["radius"] = (

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from estimators.poses import Array
 from estimators.self_calibration.corner_rows import corner_derivatives
 from estimators.self_calibration.joint import Evidence, Solution
 from estimators.self_calibration.quantities import Q
-from estimators.self_calibration.rows import expected_columns
+from estimators.self_calibration.rows import ROUGHNESS, expected_columns
 from estimators.self_calibration.walls import expected_ranges
 
 
@@ -27,6 +29,20 @@ def column_residuals(evidence: Evidence, solution: Solution, values: Array) -> A
     focal = 0.5 * evidence.image_height / np.tan(0.5 * values[Q.FOV])
     residuals: Array = seen.columns - expected_columns(found, seen.pans, values, focal)
     return residuals
+
+
+def roughness_of(evidence: Evidence, solution: Solution) -> float:
+    """What the target's track does not follow [m], by how columns of the target scatter about it.
+
+    No less than even floors leave, and no more than what was assumed: single samples scatter more by themselves.
+    """
+    columns = np.abs(column_residuals(evidence, solution, solution.values))
+    track = solution.knots.at(solution.track, evidence.sightings.stamps - solution.values[Q.CLOCK_OFFSET])
+    focal = 0.5 * evidence.image_height / np.tan(0.5 * solution.values[Q.FOV])
+    distance = np.hypot(*(track - solution.values[[Q.CAMERA_X, Q.CAMERA_Y]]).T)
+    # The median of absolute values, for a Gaussian error; of three frames a knot the curve follows one.
+    scatter = math.sqrt(1.5) * 1.4826 * float(np.median(columns * distance)) / focal
+    return float(np.clip(scatter, *ROUGHNESS))
 
 
 def corner_residuals(evidence: Evidence, values: Array) -> Array:

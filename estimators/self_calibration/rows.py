@@ -17,8 +17,9 @@ from estimators.self_calibration.track import KNOT_SPACING, Knots
 
 Sparse = Any
 """A sparse matrix of SciPy, which has no types."""
-ROUGHNESS: Final = 5e-4
-"""What the smooth curve does not follow: starts, stops, play of the target, standard deviation [m]."""
+ROUGHNESS: Final = 1e-4, 5e-4
+"""What the smooth curve does not follow: starts, stops, play of the target, standard deviation [m]. The least of even
+floors, and what it is taken for as long as nothing is known of it."""
 WIDTH_ERROR: Final = 0.07
 """Standard deviation of the target's width in an image whose pixels average over their area [px]."""
 WIDTH_BIAS: Final = 0.01
@@ -26,7 +27,7 @@ WIDTH_BIAS: Final = 0.01
 GLANCE: Final = 0.5
 """Over which it is judged whether the target moves [s]."""
 CREEPING: Final = 0.03
-"""A target that goes aside more slowly says nothing of the clocks [m/s]: in 15 ms it moves by `ROUGHNESS`."""
+"""A target that goes aside more slowly says nothing of the clocks [m/s]: in 15 ms it moves by 0.5 mm."""
 BESIDE: Final = 1.5
 """A target this far beside the axis of view is as good as behind the camera [rad]."""
 MOST_REPEATED: Final = 0.98
@@ -43,6 +44,7 @@ class Rows:
         by_track: (N, 2 * count) sparse; x and y of each coefficient side by side.
         stamps: (N,) [s].
         width: Rows that belong together, one after the other: 2 for places, 1 for columns.
+        by_common: (N,) by what all widths have in common, in its standard deviations; None if they do not follow it.
     """
 
     residual: Array
@@ -50,9 +52,12 @@ class Rows:
     by_track: Sparse
     stamps: Array
     width: int
+    by_common: Array | None = None
 
 
-def place_rows(places: Places, values: Array, knots: Knots, track: Array) -> Rows:
+def place_rows(
+    places: Places, values: Array, knots: Knots, track: Array, told: NDArray[np.bool_] | None = None
+) -> Rows:
     """Places against the track, along and across the line of sight; 2 rows each.
 
     Args:
@@ -60,6 +65,7 @@ def place_rows(places: Places, values: Array, knots: Knots, track: Array) -> Row
         values: The quantities (10,).
         knots: Of the track.
         track: Its coefficients (count, 2) [m].
+        told: Of which places (N,) the direction is left out, as it is told otherwise; None for none.
     """
     n = len(places)
     index, weights = knots.basis(places.stamps)
@@ -84,18 +90,22 @@ def place_rows(places: Places, values: Array, knots: Knots, track: Array) -> Row
     axes = np.stack([away, np.column_stack([-away[:, 1], away[:, 0]])], axis=1)
     local_covariance = axes @ (turn @ places.covariances @ turn.T) @ axes.transpose(0, 2, 1)
     whiten = np.linalg.inv(np.linalg.cholesky(local_covariance)) @ axes
+    if told is not None and told.any():
+        whiten[told, 1] = 0.0
     entries = (whiten[:, :, None, :] * weights[:, None, :, None]).reshape(2 * n, 8)
     every = _without_repeats(np.repeat(places.repeats, 2) * np.tile([0.0, 1.0], n), 2)
     return Rows(
         residual=every @ np.einsum("nij,nj->ni", whiten, residual).ravel(),
         by_quantity=every @ (whiten @ slopes).reshape(2 * n, len(Q)),
-        by_track=every @ _sparse(entries, np.repeat(_columns(index), 2, axis=0), track),
+        by_track=every @ sparse(entries, np.repeat(columns_of(index), 2, axis=0), track),
         stamps=np.repeat(places.stamps, 2),
         width=2,
     )
 
 
-def sighting_rows(sightings: Sightings, values: Array, height: int, knots: Knots, track: Array) -> Rows:
+def sighting_rows(
+    sightings: Sightings, values: Array, height: int, knots: Knots, track: Array, roughness: float
+) -> Rows:
     """Columns of the target's axis against the track; the share of its error that a frame repeats taken out.
 
     Args:
@@ -104,6 +114,7 @@ def sighting_rows(sightings: Sightings, values: Array, height: int, knots: Knots
         height: Of the image [px].
         knots: Of the track.
         track: Its coefficients (count, 2) [m].
+        roughness: What the track does not follow [m].
     """
     times = sightings.stamps - values[Q.CLOCK_OFFSET]
     index, weights = knots.basis(times)
@@ -124,23 +135,32 @@ def sighting_rows(sightings: Sightings, values: Array, height: int, knots: Knots
     aside = np.abs(shift[:, 1] * away[:, 0] - shift[:, 0] * away[:, 1]) / distance
     moves = aside > CREEPING * GLANCE
     slopes[:, Q.CLOCK_OFFSET] = -(by_place * velocity).sum(axis=1) * moves
-    sigma = np.hypot(sightings.sigmas, focal * ROUGHNESS / distance)
+    sigma = np.hypot(sightings.sigmas, focal * roughness / distance)
     entries = -(by_place[:, None, :] * weights[:, :, None]).reshape(-1, 8) / sigma[:, None]
     own = sightings.sigmas / sigma
     whiten = _without_repeats(sightings.repeats * own * np.roll(own, 1), 1)
     return Rows(
         residual=whiten @ ((sightings.columns - column) / sigma),
         by_quantity=whiten @ (-slopes / sigma[:, None]),
-        by_track=whiten @ _sparse(entries, _columns(index), track),
+        by_track=whiten @ sparse(entries, columns_of(index), track),
         stamps=sightings.stamps,
         width=1,
     )
 
 
-def width_rows(sightings: Sightings, values: Array, height: int, knots: Knots, track: Array) -> Rows:
+def width_rows(
+    sightings: Sightings,
+    values: Array,
+    height: int,
+    knots: Knots,
+    track: Array,
+    roughness: float,
+    common: float,
+) -> Rows:
     """Distances that the target's width in the image gives against the track; see `sighting_rows`.
 
-    A lens that is longer, or a target that is thicker, makes it look nearer.
+    A lens that is longer, or a target that is thicker, makes it look nearer; `common` is what all widths have in
+    common, in units of `WIDTH_BIAS`.
     """
     seen = np.isfinite(sightings.distances)
     distances, stamps = sightings.distances[seen], sightings.stamps[seen]
@@ -156,16 +176,17 @@ def width_rows(sightings: Sightings, values: Array, height: int, knots: Knots, t
     slopes[:, Q.RADIUS], slopes[:, Q.FOV] = 1 / values[Q.RADIUS], focal_slope / focal
     slopes[:, [Q.CAMERA_X, Q.CAMERA_Y]] = by_place
     slopes[:, Q.CLOCK_OFFSET] = (by_place * knots.at(track, times, derivative=1)).sum(axis=1)
-    # As many frames as you like leave the common error: each counts for as much less.
-    width_error = np.hypot(WIDTH_ERROR, WIDTH_BIAS * np.sqrt(len(times)))
-    sigma = np.hypot(width_error * distance / (2 * scale), ROUGHNESS / distance)
+    by_pixel = distance / (2 * scale)
+    sigma = np.hypot(WIDTH_ERROR * by_pixel, roughness / distance)
+    by_common = WIDTH_BIAS * by_pixel / sigma
     entries = -(by_place[:, None, :] * weights[:, :, None]).reshape(-1, 8) / sigma[:, None]
     return Rows(
-        residual=np.log(distances / distance * scale / sightings.scale) / sigma,
+        residual=np.log(distances / distance * scale / sightings.scale) / sigma + common * by_common,
         by_quantity=slopes / sigma[:, None],
-        by_track=_sparse(entries, _columns(index), track),
+        by_track=sparse(entries, columns_of(index), track),
         stamps=stamps,
         width=1,
+        by_common=by_common,
     )
 
 
@@ -194,18 +215,19 @@ def bend_rows(knots: Knots, track: Array) -> Rows:
     return Rows(
         residual=bend.ravel(),
         by_quantity=np.zeros((2 * n, len(Q))),
-        by_track=_sparse(entries.reshape(2 * n, 6), np.repeat(_columns(index), 2, axis=0), track),
+        by_track=sparse(entries.reshape(2 * n, 6), np.repeat(columns_of(index), 2, axis=0), track),
         stamps=np.repeat(knots.start + KNOT_SPACING * np.arange(n), 2),
         width=2,
     )
 
 
-def _columns(index: NDArray[np.intp]) -> NDArray[np.intp]:
+def columns_of(index: NDArray[np.intp]) -> NDArray[np.intp]:
     """Places (N, 2 k) of x and y of coefficients (N, k) among all unknowns of the track."""
     return (2 * index[:, :, None] + np.arange(2)).reshape(len(index), -1)
 
 
-def _sparse(entries: Array, columns: NDArray[np.intp], track: Array) -> Sparse:
+def sparse(entries: Array, columns: NDArray[np.intp], track: Array) -> Sparse:
+    """Entries (N, k) in columns (N, k) of a matrix with one column for each number of the track."""
     n, k = entries.shape
     rows = np.repeat(np.arange(n), k)
     return csr_matrix((entries.ravel(), (rows, columns.ravel())), shape=(n, track.size))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
@@ -15,6 +15,7 @@ from estimators.messages import LaserScan, Message
 from estimators.poses import Array
 from estimators.self_calibration.corner_rows import CornerSightings
 from estimators.self_calibration.corners import CornerFinder
+from estimators.self_calibration.edges import find_edges
 from estimators.self_calibration.joint import Evidence, Solution, solve
 from estimators.self_calibration.places import (
     Places,
@@ -25,6 +26,7 @@ from estimators.self_calibration.places import (
     find_radius,
 )
 from estimators.self_calibration.quantities import PRIOR, Q, values_of, with_vector
+from estimators.self_calibration.residuals import roughness_of
 from estimators.self_calibration.sightings import Sightings, find_pan_offset, find_sightings
 from estimators.self_calibration.uncertainty import correlations_of
 from estimators.self_calibration.walls import find_walls
@@ -138,6 +140,12 @@ def self_calibrate(
         corners = finder.sightings
     evidence = Evidence(walls, places, radius, sightings, height, corners)
     solution = solve(evidence, values, start)
+    edges = find_edges(
+        scans, with_vector(believed, solution.values), places, sightings, solution.knots, solution.track
+    )
+    if len(edges):
+        evidence = replace(evidence, edges=edges, roughness=roughness_of(evidence, solution))
+        solution = solve(evidence, solution.values, start, (solution.knots, solution.track))
     return SelfCalibration(start, solution, evidence)
 
 

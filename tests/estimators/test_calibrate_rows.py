@@ -11,6 +11,8 @@ from estimators.self_calibration.corner_rows import CornerSightings, corner_rows
 from estimators.self_calibration.places import Places
 from estimators.self_calibration.quantities import Q, values_of, with_vector
 from estimators.self_calibration.rows import (
+    ROUGHNESS,
+    WIDTH_BIAS,
     bend_rows,
     expected_columns,
     place_rows,
@@ -81,9 +83,11 @@ ROWS = {
         places_on(way(TIMES), np.random.default_rng(1), repeats=0.6), values, knots, track
     ),
     "columns": lambda values, knots, track: sighting_rows(
-        sightings_of(repeats=0.7), values, 240, knots, track
+        sightings_of(repeats=0.7), values, 240, knots, track, ROUGHNESS[1]
     ),
-    "widths": lambda values, knots, track: width_rows(sightings_of(), values, 240, knots, track),
+    "widths": lambda values, knots, track: width_rows(
+        sightings_of(), values, 240, knots, track, ROUGHNESS[1], 0.0
+    ),
     "corners": lambda values, knots, track: corner_rows(corners_of(), values, 240, track),
     "bends": lambda values, knots, track: bend_rows(knots, track),
 }
@@ -124,7 +128,7 @@ def test_frames_of_single_samples_say_nothing_of_the_width():
     knots, track = curve()
     seen = sightings_of()
     seen = replace(seen, distances=np.where(np.arange(len(TIMES)) < 10, np.nan, seen.distances))
-    assert len(width_rows(seen, TRUE, 240, knots, track).residual) == len(TIMES) - 10
+    assert len(width_rows(seen, TRUE, 240, knots, track, ROUGHNESS[1], 0.0).residual) == len(TIMES) - 10
 
 
 def test_a_spline_repeats_straight_lines_and_its_weights_add_up():
@@ -142,11 +146,12 @@ def test_errors_that_repeat_come_out_white():
     """The rows are a linear map of the columns, whose errors share 0.8 from frame to frame."""
     share, (knots, track) = 0.8, curve()
     seen = replace(sightings_of(), sigmas=np.full(len(TIMES), 20.0), repeats=np.full(len(TIMES), share))
-    residual = sighting_rows(seen, TRUE, 240, knots, track).residual
+    residual = sighting_rows(seen, TRUE, 240, knots, track, ROUGHNESS[1]).residual
 
     def with_unit_error(k):
         columns = seen.columns + 20.0 * np.eye(len(TIMES))[k]
-        return sighting_rows(replace(seen, columns=columns), TRUE, 240, knots, track).residual - residual
+        rows = sighting_rows(replace(seen, columns=columns), TRUE, 240, knots, track, ROUGHNESS[1])
+        return rows.residual - residual
 
     linear = np.column_stack([with_unit_error(k) for k in range(len(TIMES))])
     apart = np.abs(np.subtract.outer(np.arange(len(TIMES)), np.arange(len(TIMES))))
@@ -190,4 +195,16 @@ def test_walls_too_near_for_the_scanner_shift_nothing(calibration):
     _, found = find_walls(scans, calibration.room, true, 0.03)
     assert (
         np.abs(found[[Q.LRF_X, Q.LRF_Y, Q.RANGE_BIAS]] - true[[Q.LRF_X, Q.LRF_Y, Q.RANGE_BIAS]]).max() < 6e-4
+    )
+
+
+def test_what_all_widths_have_in_common_makes_each_of_them_wider():
+    knots, track = curve()
+    wide = sightings_of()
+    pixels = 2 * wide.scale / wide.distances
+    wider = replace(wide, distances=2 * wide.scale / (pixels + WIDTH_BIAS))
+    rows = width_rows(wider, TRUE, 240, knots, track, ROUGHNESS[1], 1.0)
+    assert np.abs(rows.residual).max() < 1e-3 * np.abs(rows.by_common).max()
+    assert rows.residual - rows.by_common == pytest.approx(
+        width_rows(wider, TRUE, 240, knots, track, ROUGHNESS[1], 0.0).residual
     )
