@@ -57,7 +57,7 @@ class MarkerReading:
         most = math.sqrt(MOST_ASIDE * float(covariance[0, 0]))
         sigma *= min(1.0, most / max(float(np.hypot(*sigma)), 1e-12))
         own = np.outer([1.0, covariance[0, 1] / covariance[0, 0]], sigma)
-        aside = np.outer([1.0, seen.lean], sigma)
+        aside = np.array([[1.0, 1.0], [seen.lean, seen.shape_lean]]) * sigma
         rest = covariance - own @ own.T
         # Of pictures that come again in turns their mean lasts.
         share = min(seen.systematic, MOST_LASTING) / self.round

@@ -20,6 +20,9 @@ a pixel's middle well before that."""
 MOST_ROUND = 10
 """Frames after which pictures of a turning target that come again are looked for: an error that lasts in their mean has
 a tenth of the variance of one by then."""
+SWEPT_LEAN = 0.3
+"""How much of the lean a yaw follows what a sweep leaves of the bearing, by least squares: all edges have their part in
+that, not the limbs alone (simulated, `tiny`, 40 robots: 0.27; exact edges: 0.5)."""
 ALIKE = 2.0
 """How far a camera sweeps until the edges have no more moved alike [px]: nearer ones move less."""
 
@@ -118,6 +121,11 @@ class MarkerMeasurement:
             linear=None,
             is_swept=True,
         )
+
+    @property
+    def shape_lean(self) -> float:
+        """How much the yaw is off where what lasts on one side has moved the bearing, see `shape_error`."""
+        return self.lean * (SWEPT_LEAN if self.is_swept else 1.0)
 
     def expected(self, x: float, y: float, yaw: float) -> tuple[Array, Array]:
         """What this measurement would read for a target at x, y [m], yaw [rad], and its Jacobian.

@@ -11,7 +11,7 @@ from estimators import ImageFrame, TargetGeometry
 from estimators.fused.frame_reading import MarkerReading
 from estimators.fused.views import Views
 from estimators.marker_fit import MarkerFit
-from estimators.marker_fit.measurement import ALIKE, SAME_PIXELS, sawtooth
+from estimators.marker_fit.measurement import ALIKE, SAME_PIXELS, SWEPT_LEAN, sawtooth
 from estimators.marker_fit.outline import TargetOutline
 from estimators.marker_fit.problem import Solution
 from estimators.poses import Pose2, wrap_angle
@@ -23,7 +23,8 @@ FIFTH = math.radians(12.0)
 @pytest.fixture
 def sampled(measurement):
     """The same where a pixel is one sample, with another solution beside it."""
-    linear = Solution(np.array([0.001, -0.8, 2.0]), np.diag([2e5, 3e3, 1e6]), 0.1)
+    information = np.array([[2e5, -2e4, 0], [-2e4, 3e3, 0], [0, 0, 1e6]])
+    linear = Solution(np.array([0.001, -0.8, 2.0]), information, 0.1)
     return dataclasses.replace(
         measurement,
         quantised=True,
@@ -103,7 +104,9 @@ def test_a_camera_that_sweeps_before_a_target_at_rest_is_read_by_least_squares(s
         swept.append(views.reading(seen, seen.yaw, 0.0))
     assert [r.seen.is_swept for r in swept] == [False, False, False, True, True]
     assert swept[-1].seen.bearing == pytest.approx(sampled.direction + 0.7 * pixel + 0.001)
-    assert swept[-1].seen.covariance[0, 0] == pytest.approx(1 / 2e5)
+    assert swept[-1].seen.covariance[0, 0] == pytest.approx(3e3 / (2e5 * 3e3 - 2e4**2))
+    assert swept[-1].seen.shape_lean == SWEPT_LEAN * swept[-1].seen.lean
+    assert swept[0].seen.shape_lean == swept[0].seen.lean
     kept = swept[-1].kept(swept[-2], np.zeros((1, 2)), np.zeros(1))[0]
     np.testing.assert_allclose(kept[[0, 1, 2, 4]], -0.5, atol=1e-6)
     turned = dataclasses.replace(sampled, direction=sampled.direction + 2 * pixel)
