@@ -19,7 +19,7 @@ from estimators.calibration import Calibration
 from estimators.messages import LaserScan
 from estimators.poses import Array
 from estimators.scan_model.beams import EmptyRoom
-from estimators.self_calibration.places import Places
+from estimators.self_calibration.places import Places, scans_of
 from estimators.self_calibration.quantities import Q
 from estimators.self_calibration.rows import ROUGHNESS, Rows, columns_of, sparse
 from estimators.self_calibration.sightings import Sightings
@@ -80,19 +80,18 @@ def find_edges(
         track: Its coefficients (count, 2) [m].
     """
     lrf, radius = calibration.lrf, calibration.target.radius
-    empty_room, by_stamp = EmptyRoom(calibration.room, lrf), {s.stamp: s for s in scans}
+    empty_room = EmptyRoom(calibration.room, lrf)
     framed = sightings.stamps - calibration.camera.clock_offset
     stamps, bearings, hits = [], [], []
     told = np.zeros(len(places), bool)
     last: Array | None = None
-    for i, stamp in enumerate(places.stamps.tolist()):
-        scan = by_stamp.get(stamp)
-        if scan is None or not len(framed) or np.abs(framed - stamp).min() > KNOT_SPACING / 2:
+    for i, (scan, stamp) in enumerate(zip(scans_of(scans, places), places.stamps.tolist(), strict=True)):
+        if not len(framed) or np.abs(framed - stamp).min() > KNOT_SPACING / 2:
             continue
         beams = empty_room.beams(scan)
         times = beams.stamp + beams.times
         away = knots.at(track, times) - np.array(beams.origin)
-        middle = away[len(away) // 2]
+        middle = knots.at(track, np.array([stamp]))[0] - np.array(beams.origin)
         aside = np.array([-middle[1], middle[0]]) / np.hypot(*middle)
         told[i] = True
         if last is not None and abs(aside @ (middle - last)) < MOVED:

@@ -153,17 +153,20 @@ def find_radius(
 
 def different_views(scans: Sequence[LaserScan], places: Places) -> list[LaserScan]:
     """Scans between which the target's edges moved by a beam at least; at most `MOST_SCANS`."""
-    by_stamp = {s.stamp: s for s in scans}
     chosen, last = [], None
-    for stamp, (x, y) in zip(places.stamps, places.points, strict=True):
-        scan = by_stamp.get(stamp)
-        if scan is None:
-            continue
+    for scan, (x, y) in zip(scans_of(scans, places), places.points, strict=True):
         edges = _edges(np.array([[x, y]]), places.values[Q.RADIUS])[0] / abs(scan.bearing_increment)
         if last is None or np.abs(edges - last).max() >= 1.0:
             chosen.append(scan)
             last = edges
     return chosen[:: -(-len(chosen) // MOST_SCANS)] if chosen else []
+
+
+def scans_of(scans: Sequence[LaserScan], places: Places) -> list[LaserScan]:
+    """The scan that each place was found in: the last to begin before; one that takes time meets the target later."""
+    ordered = sorted(scans, key=lambda scan: scan.stamp)
+    starts = np.array([scan.stamp for scan in ordered])
+    return [ordered[i] for i in np.searchsorted(starts, places.stamps, side="right") - 1]
 
 
 def _evidence(scans: Sequence[LaserScan], calibration: Calibration, radii: Array, watch: Watch) -> Array:

@@ -8,7 +8,7 @@ from scipy.stats import norm
 
 from estimators import Pose2
 from estimators.self_calibration.edges import Edges, edge_rows, find_edges
-from estimators.self_calibration.places import Places
+from estimators.self_calibration.places import Places, scans_of
 from estimators.self_calibration.quantities import Q, values_of
 from estimators.self_calibration.sightings import Sightings
 from estimators.self_calibration.track import Knots
@@ -103,3 +103,14 @@ def test_without_frames_or_while_it_rests_they_say_nothing_new(calibration, idea
     scans = [dataclasses.replace(scans[0], stamp=s.stamp) for s in scans]
     once = find_edges(scans, calibration, places, frames, knots, resting)
     assert len(np.unique(once.stamps)) <= 1
+
+
+@pytest.mark.parametrize("into_the_sweep", [0.0, 0.03])
+def test_a_place_is_of_the_scan_that_was_under_way(calibration, ideal_scan, into_the_sweep):
+    times = np.arange(1, 9) / 10
+    scans, places, *_ = seen(calibration, ideal_scan, times)
+    some = [0, 3, 7]
+    later = dataclasses.replace(
+        places, stamps=places.stamps[some] + into_the_sweep, points=places.points[some]
+    )
+    assert scans_of(scans[::-1], later) == [scans[i] for i in some]
