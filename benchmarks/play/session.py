@@ -9,6 +9,7 @@ from typing import Any, Final
 import gymnasium as gym
 import numpy as np
 
+from benchmarks.output import missing, remove_empty
 from benchmarks.play.drive import ArrowDrive
 from benchmarks.recording.recorder import Recorder
 from benchmarks.recording.scan_log import ScanLog
@@ -70,7 +71,7 @@ class PlaySession:
         self.config = base.config
         self.step_time: float = base.config.timing.step
         self._base = base
-        self._out = out
+        self._out, self._made = out, missing(out)
         self._drive = ArrowDrive(base.config.robot)
         self._recorder = Recorder(out, base.config)
         self._log = ScanLog()
@@ -133,6 +134,7 @@ class PlaySession:
         try:
             self._recorder.discard()
         finally:
+            remove_empty(self._made)
             self.env.close()
         parts = [self._failure] if self._failure else []
         parts += [f"saved {', '.join(str(path) for path in self._saved)}"] if self._saved else []

@@ -52,6 +52,15 @@ def test_what_was_recorded_is_saved(session):
     assert recording.config == session.config
 
 
+def test_what_is_not_saved_leaves_no_folder(session):
+    press(session, "r")
+    press(session)
+    assert session._out.exists()
+    assert "not saved" in session.close()
+
+    assert not session._out.exists()
+
+
 def test_the_scan_log_holds_the_stations_scans(session):
     press(session, "l")
     press(session)
