@@ -62,13 +62,18 @@ class MarkerReading:
         # Of pictures that come again in turns their mean lasts.
         share = min(seen.systematic, MOST_LASTING) / self.round
         scale = seen.sensitivity * seen.scale_error * seen.distance
-        pixels = math.sqrt(share) * np.linalg.cholesky(rest)
+        repeated = share * rest
+        if seen.repeated is not None:
+            # Of what lasts limbs and shape take the same part as of the whole.
+            left = np.linalg.cholesky(rest) @ np.linalg.inv(np.linalg.cholesky(covariance))
+            repeated = MOST_LASTING * left @ seen.repeated @ left.T
+        pixels = np.linalg.cholesky(repeated)
         lasting = np.column_stack([pixels, aside, scale, [0.0, seen.marker_error]])
         if self.view is not None and not seen.quantised:
             # How large an error is said to be that lasts must not change while it does, as noise would have it: the
             # filter would take the difference between frames for a sign of the error.
             lasting = self.view.lasting
-        object.__setattr__(self, "R", (1 - share) * rest)
+        object.__setattr__(self, "R", rest - repeated)
         object.__setattr__(self, "lasting", lasting)
 
     @property

@@ -178,7 +178,7 @@ class MarkerFit:
         """`expected` is the predicted direction of the axis in the camera's frame, and its deviation [rad]."""
         axis, yaw, distance = (float(v) for v in solution.pose)
         # For a given distance: the information's block of bearing and yaw, and how they lean on the distance.
-        covariance = np.linalg.inv(solution.information[:2, :2]) * max(1.0, solution.misfit)
+        covariance, repeated = _errors(solution)
         sensitivity = -np.linalg.solve(solution.information[:2, :2], solution.information[:2, 2])
         # Where samples are the same although the pan has moved, what is seen does not show that it did.
         doubt = expected[1] ** 2 / (expected[1] ** 2 + float(covariance[0, 0]))
@@ -198,7 +198,11 @@ class MarkerFit:
             false_colors=false_colors,
             misfit=solution.misfit,
             quantised=problem.quantised,
-            systematic=max(problem.systematic, 1 - 1 / max(1.0, solution.misfit)),
+            systematic=(
+                max(problem.systematic, 1 - 1 / max(1.0, solution.misfit))
+                if repeated is None
+                else float(repeated[0, 0] / covariance[0, 0])
+            ),
             limb_error=problem.lasting_limb * math.cos(axis) ** 2 / self._camera.focal,
             shape_error=problem.middle_error,
             marker_error=problem.markers_aside / self._target.radius,
@@ -209,4 +213,15 @@ class MarkerFit:
             pixels=pixels,
             samples=problem.samples,
             period=self._period,
+            repeated=repeated,
         )
+
+
+def _errors(solution: Solution) -> tuple[Array, Array | None]:
+    """Covariances (2, 2) of bearing and yaw at a given distance: all, and what lasts, if that is no mere share."""
+    weighted = np.linalg.inv(solution.information[:2, :2])
+    # What the model does not explain is no pixel noise, and residuals show how large it is.
+    unexplained = max(solution.misfit - 1.0, 0.0) * weighted
+    if solution.errors is None:
+        return weighted + unexplained, None
+    return solution.errors.sum(axis=0) + unexplained, solution.errors[1] + unexplained

@@ -69,6 +69,8 @@ class MarkerMeasurement:
         linear: The least-squares solution, in the camera's frame, where another one is nearer to the truth in a single
             frame, but does not err to both sides alike while a camera sweeps; see `swept`.
         is_swept: Whether this is it.
+        repeated: (2, 2) part of the covariance that another frame of the same view repeats, where that is no mere share
+            of it; else None [rad^2].
     """
 
     stamp: float
@@ -94,6 +96,7 @@ class MarkerMeasurement:
     samples: Array
     period: float = 2 * math.pi
     linear: Solution | None = None
+    repeated: Array | None = None
     is_swept: bool = False
 
     def swept(self) -> MarkerMeasurement:

@@ -48,4 +48,7 @@ def fit_photometric(problem: Problem, outline: TargetOutline, start: Array, step
         if step @ gradient < DONE:
             break
     left_over = residual - jacobian @ step
-    return Solution(pose, information, float(left_over @ left_over) / max(len(residual) - 3, 1))
+    # What the weighted fit makes of errors that are not as its weights are.
+    gain = np.linalg.solve(information[:2, :2], jacobian[:, :2].T)
+    errors = np.stack([(gain * part) @ gain.T for part in problem.variances])
+    return Solution(pose, information, float(left_over @ left_over) / max(len(residual) - 3, 1), errors)
