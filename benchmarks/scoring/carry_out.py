@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -14,8 +15,12 @@ from benchmarks.scoring.judge import JudgedRun
 from benchmarks.scoring.live import score_live
 from benchmarks.scoring.recorded import score_files, score_recording
 from benchmarks.scoring.request import Request
+from benchmarks.scoring.subjects import Subject
 from benchmarks.scoring.write import Result
 from benchmarks.trajectory.csv_file import read_trajectory
+from estimators.errors import ConfigError
+from gt_env.config import EnvConfig
+from gt_env.config.shape import kinematics
 
 
 def carry_out(request: Request, *, jobs: int, engine: Engine, console: Console, folder: Path) -> Result:
@@ -42,6 +47,7 @@ def carry_out(request: Request, *, jobs: int, engine: Engine, console: Console, 
     elif request.recordings:
         runs = _recorded(request, console)
     else:
+        _check_wheels(request.subjects, request.settings())
         tasks = request.live_runs(folder)
         plans = [task.plan() for task in tasks]  # what does not fit is said here, not by a worker
         runs = run_side_by_side(
@@ -57,16 +63,28 @@ def carry_out(request: Request, *, jobs: int, engine: Engine, console: Console, 
     return Result.of(runs, request.rules, request.reference)
 
 
+def _check_wheels(subjects: Sequence[Subject], config: EnvConfig) -> None:
+    """Refuse this project's localizers, which take the speeds of two wheels, on a robot that has another number."""
+    wheels = kinematics(config.robot).wheels
+    for of in subjects:
+        if of.kind == "localizer" and wheels != 2:
+            raise ConfigError(
+                f"SUBJECT {of.name}: takes the speeds of two wheels; robot.model = {config.robot.model!r} has {wheels}"
+            )
+
+
 def _recorded(request: Request, console: Console) -> list[JudgedRun]:
     from benchmarks.recording.sources import LawOptions, open_source
 
     runs = []
     for number, path in enumerate(request.recordings):
         recording, _ = open_source(path, LawOptions(), request.config, dict(request.overrides))
+        believed = request.believed(recording.config)
+        _check_wheels(request.subjects, believed)
         runs.append(
             score_recording(
                 recording,
-                request.believed(recording.config),
+                believed,
                 request.subjects,
                 request.rules,
                 lambda items: tracked(items, "listening"),

@@ -88,8 +88,7 @@ class _Curve(EvalCallback):
             super()._init_callback()
 
     def _on_training_start(self) -> None:
-        # Calls are counted from the first step, also by a training that goes on: else it would be evaluated late or
-        # never, and the best model be an old one.
+        # Calls count from the first step, also where a training goes on: it would be evaluated late or never else.
         self.n_calls = self.model.num_timesteps // self.training_env.num_envs
 
 

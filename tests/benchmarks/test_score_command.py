@@ -129,6 +129,10 @@ def test_it_writes_a_page_with_its_figures(command, tmp_path):
         (("odometry", "odometry"), "is there twice"),
         (("a=poses.tum",), "needs --recording or --gt"),
         (("odometry", "--path", "moon"), "--path moon: must be one of figure-of-eight"),
+        (
+            ("ekf", "--set", "robot.model=omni3"),
+            "SUBJECT ekf: takes the speeds of two wheels; robot.model = 'omni3' has 3",
+        ),
         (("odometry", "--align", "sim3"), "--align sim3: must be one of none, origin, se2, yaw"),
         (("odometry", "--reference", "true"), "--reference true: must be one of fused, smooth"),
         (("a=poses.tum", "--gt", "gt.csv"), "gt.csv: cannot be read"),
