@@ -12,6 +12,7 @@ from typing import Final
 
 import numpy as np
 
+from estimators.fused.mixtures import mixtures
 from estimators.fused.motion import BIASES, CREEP, MotionModel, switching
 from estimators.fused.second_stage import SecondStage
 from estimators.poses import Array, wrap_angle
@@ -215,10 +216,10 @@ class ModeFilter:
     def _mixed(self, shares: Array) -> tuple[Array, Array]:
         """States (J, n) and covariances (J, n, n) of mixtures of the modes with shares (M, J)."""
         if not self.J.size:
-            return _mixtures(shares, self.x, self.P)
+            return mixtures(shares, self.x, self.P)
         # What the calibration is known to be off by moves modes apart that it is not a difference between.
         moved = self.J @ self.off
-        x, P = _mixtures(shares, self.x - moved, self.P)
+        x, P = mixtures(shares, self.x - moved, self.P)
         return x + shares.T @ moved, P
 
     def _stop_resting(self) -> None:
@@ -230,7 +231,7 @@ class ModeFilter:
             self.J[self._rest, self._speeds] = 0.0
 
     def _mixed_innovation(self, residual: Array, S: Array, accepted: bool) -> Innovation:
-        mean, covariance = _mixtures(self.weights[:, None], residual, S)
+        mean, covariance = mixtures(self.weights[:, None], residual, S)
         return Innovation(mean[0], covariance[0], accepted)
 
 
@@ -238,14 +239,3 @@ def turning(model: MotionModel, x: Array, P: Array) -> Array:
     """Root mean square turn rate (M,) [rad/s] of states (M, n) with covariances (M, n, n)."""
     rate = YAW + len(model.speed_sigmas)
     return np.sqrt(x[:, rate] ** 2 + P[:, rate, rate])
-
-
-def _mixtures(weights: Array, x: Array, P: Array) -> tuple[Array, Array]:
-    """Means (J, n) and covariances (J, n, n) of mixtures of M Gaussians with weights (M, J)."""
-    m, n = x.shape
-    # About one of them: the squares of rooms, and of many turns, would cost digits.
-    off = x - x[0]
-    mean = weights.T @ off
-    squares = (P + off[:, :, None] * off[:, None, :]).reshape(m, n * n)
-    covariance = (weights.T @ squares).reshape(-1, n, n) - mean[:, :, None] * mean[:, None, :]
-    return x[0] + mean, covariance

@@ -10,6 +10,7 @@ import numpy as np
 
 from estimators.calibration import Calibration
 from estimators.errors import MeasurementError
+from estimators.marker_fit.assembly import pose_problem
 from estimators.marker_fit.association import Associator
 from estimators.marker_fit.camera import CameraModel
 from estimators.marker_fit.centroids import fit_centroids
@@ -17,7 +18,7 @@ from estimators.marker_fit.measurement import MarkerMeasurement
 from estimators.marker_fit.outline import TargetOutline
 from estimators.marker_fit.photometric import fit_photometric
 from estimators.marker_fit.pixels import PixelKind
-from estimators.marker_fit.problem import MODEL_ERROR, Problem, Solution, outline_at, pose_problem
+from estimators.marker_fit.problem import MODEL_ERROR, Problem, Solution, outline_at
 from estimators.marker_fit.profile import ProfileReader
 from estimators.marker_fit.runs import find_runs
 from estimators.marker_fit.sampled import feasible_poses

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from estimators.marker_fit.problem import LINEAR_SWEPT, SWEPT, Solution
+from estimators.marker_fit.rounding import sawtooth
 from estimators.poses import Array, wrap_angle
 
 OBLIQUE = 0.6
@@ -23,8 +24,6 @@ a tenth of the variance of one by then."""
 SWEPT_LEAN = 0.3
 """How much of the lean a yaw follows what a sweep leaves of the bearing, by least squares: all edges have their part in
 that, not the limbs alone (simulated, `tiny`, 40 robots: 0.27; exact edges: 0.5)."""
-ALIKE = 2.0
-"""How far a camera sweeps until the edges have no more moved alike [px]: nearer ones move less."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -239,13 +238,3 @@ class MarkerMeasurement:
             return replace(self, sensitivity=earlier.sensitivity, lean=earlier.lean)
         lean = float(covariance[0, 1] / covariance[0, 0])
         return replace(self, sensitivity=earlier.sensitivity, covariance=covariance, lean=lean)
-
-
-def sawtooth(moved: Array) -> Array:
-    """Correlation (M,) of what rounding to samples errs, with the same after all edges moved alike (M,) [px].
-
-    An edge lies uniformly between two samples and is taken for their middle: over a pixel the error runs from one end
-    to the other, whose correlation with itself is 1 - 6 u (1 - u), u being the part of a pixel that it has moved.
-    """
-    part = moved % 1.0
-    return np.where(moved < ALIKE, 1.0 - 6.0 * part * (1.0 - part), 0.0)

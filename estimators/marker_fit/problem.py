@@ -8,12 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from estimators.calibration import TargetGeometry
-from estimators.marker_fit.association import Association
 from estimators.marker_fit.outline import Outline, TargetOutline
-from estimators.marker_fit.profile import Profile
-from estimators.marker_fit.runs import MarkerRuns
-from estimators.marker_fit.silhouette import Silhouette
 from estimators.poses import Array
 
 MODEL_ERROR = 0.0025
@@ -41,8 +36,6 @@ SAMPLED_ERROR = 12**-0.5
 """Standard deviation of all three where a pixel is one sample: uniform over a pixel."""
 
 
-BLUR = 0.12
-"""Standard deviation of a share in a profile that was interpolated."""
 LASTS_IN_SHARES = 0.68
 """What of the model's error lasts in a share that one colour tells, and ..."""
 LASTS_AT_LIMB = 1.6
@@ -52,8 +45,6 @@ NOISE_AT_LIMB = 2.4
 """How much more pixel noise moves a limb than a share: colours differ less there, over more pixels."""
 LIMB_SIGMAS = 3.0
 """Within so many standard deviations of a limb a column may be cut by it."""
-REACH = 2
-"""Pixels beside a patch that are compared, too."""
 FAINT = np.diag([1.0, 1.0, 0.0])
 """Information that keeps a step finite where no pixel has a slope [1/rad^2]."""
 
@@ -188,62 +179,6 @@ class Problem:
         limbs, limb_slopes = outline.limbs[side], outline.limb_slopes[side]
         slopes = outline.marker_slopes[used] - limb_slopes
         return limbs + clear * (ends - limbs), limb_slopes + clear[..., None] * slopes
-
-
-def pose_problem(
-    target: TargetGeometry,
-    silhouette: Silhouette,
-    runs: MarkerRuns,
-    found: Association,
-    distance: tuple[float, float],
-    focal: float,
-    profile: Profile,
-    quantised: bool,
-    model_error: float,
-) -> Problem:
-    """Put together what was found.
-
-    Args:
-        target: What it is meant to look like.
-        silhouette: Its limbs in the image.
-        runs: Where something stands out of its white.
-        found: Which of these is which marker.
-        distance: From the camera to its axis, mean and standard deviation [m].
-        focal: Length [px].
-        profile: The colours by column that all this was found in.
-        quantised: Whether a pixel is one sample.
-        model_error: Standard deviation of edges and shares without noise [px].
-    """
-    used = np.flatnonzero(found.markers >= 0)
-    swallowed = 1 - np.asarray(target.marker_colors, float) / 255
-    share, averaging = np.zeros(len(runs.columns)), np.ones(len(runs.columns))
-    near = np.zeros(len(share), bool)
-    bounds = np.concatenate([[0], (runs.ends[1:, 0] + runs.ends[:-1, 1] + 1) // 2, [len(share)]])
-    for i in used.tolist():
-        part = slice(int(bounds[i]), int(bounds[i + 1]))
-        hue = swallowed[found.markers[i]]
-        if float(runs.hues[i] @ hue) < 0.9 * float(np.sqrt(hue @ hue)):
-            hue = (runs.hues[i] > 0.4 * runs.hues[i].max()).astype(float)  # a false colour
-        near[max(int(runs.ends[i, 0]) - REACH, 0) : int(runs.ends[i, 1]) + REACH + 1] = True
-        share[part] = runs.absorbed[part] @ (hue / float(hue @ hue))
-        averaging[part] = 1 / math.sqrt(float(hue @ hue))
-    return Problem(
-        limbs=np.array(silhouette.edges),
-        columns=runs.columns[near],
-        share=share[near],
-        averaging=averaging[near],
-        markers=found.markers[used],
-        centers=runs.centers[used],
-        ends=runs.columns[runs.ends[used]],
-        inside=(float(runs.columns[0]), float(runs.columns[-1])),
-        touching=runs.touching[used],
-        quantised=quantised,
-        distance=distance[0],
-        distance_sigma=distance[1],
-        pixel=distance[0] / focal,
-        noise=math.hypot(silhouette.noise / math.sqrt(profile.rows), BLUR if profile.straightened else 0.0),
-        model_error=model_error,
-    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
@@ -10,12 +9,11 @@ from scipy.sparse import csr_matrix, diags_array, hstack
 from scipy.sparse.linalg import splu
 
 from estimators.poses import Array
-from estimators.self_calibration.corner_rows import CornerSightings, corner_rows
-from estimators.self_calibration.edges import Edges, edge_rows
-from estimators.self_calibration.places import Places, RadiusEvidence
+from estimators.self_calibration.corner_rows import corner_rows
+from estimators.self_calibration.edges import edge_rows
+from estimators.self_calibration.places import Places
 from estimators.self_calibration.quantities import PRIOR, Q
 from estimators.self_calibration.rows import (
-    ROUGHNESS,
     Rows,
     Sparse,
     bend_rows,
@@ -23,9 +21,8 @@ from estimators.self_calibration.rows import (
     sighting_rows,
     width_rows,
 )
-from estimators.self_calibration.sightings import Sightings
+from estimators.self_calibration.solution import Evidence, Solution
 from estimators.self_calibration.track import Knots
-from estimators.self_calibration.walls import Walls
 
 MOST_STEPS: Final = 30
 CONVERGED: Final = 1e-2
@@ -38,62 +35,6 @@ TAIL: Final = 2.0
 """Degrees of freedom of their distribution (Student's)."""
 BLOCK: Final = 2.0
 """Errors farther apart than this are taken to be independent [s]."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Evidence:
-    """Everything that was measured.
-
-    Attributes:
-        walls: What the walls say.
-        places: Of the target, by the LRF.
-        radius: What the scans say of it; None if nothing.
-        sightings: Of the target, by the camera; may be empty.
-        image_height: [px].
-        corners: Of the room, by the camera; may be empty.
-        edges: Of the target, by single beams; may be empty.
-        roughness: What the target's track does not follow [m].
-    """
-
-    walls: Walls
-    places: Places
-    radius: RadiusEvidence | None
-    sightings: Sightings
-    image_height: int
-    corners: CornerSightings = field(default_factory=CornerSightings.none)
-    edges: Edges = field(default_factory=Edges.none)
-    roughness: float = ROUGHNESS[1]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Solution:
-    """What the evidence says.
-
-    Attributes:
-        values: The quantities (10,).
-        covariance: (10, 10) of them.
-        knots: Of the target's track.
-        track: Its coefficients (count, 2).
-        residuals: Weighted root mean square residual of each kind, in standard deviations.
-        common: What all widths in the image have in common, in units of `rows.WIDTH_BIAS`.
-    """
-
-    values: Array
-    covariance: Array
-    knots: Knots
-    track: Array
-    residuals: dict[str, float]
-    common: float = 0.0
-
-    def place(self, time: float) -> Array:
-        """Of the target (2,) at a time of the LRF's clock [m]."""
-        point: Array = self.knots.at(self.track, np.array([time]))[0]
-        return point
-
-    def velocity(self, time: float) -> Array:
-        """Of the target (2,) at a time of the LRF's clock [m/s]."""
-        velocity: Array = self.knots.at(self.track, np.array([time]), derivative=1)[0]
-        return velocity
 
 
 def first_track(places: Places, values: Array) -> tuple[Knots, Array]:

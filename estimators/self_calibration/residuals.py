@@ -8,9 +8,9 @@ import numpy as np
 
 from estimators.poses import Array
 from estimators.self_calibration.corner_rows import corner_derivatives
-from estimators.self_calibration.joint import Evidence, Solution
 from estimators.self_calibration.quantities import Q
 from estimators.self_calibration.rows import ROUGHNESS, expected_columns
+from estimators.self_calibration.solution import Evidence, Solution
 from estimators.self_calibration.walls import expected_ranges
 
 

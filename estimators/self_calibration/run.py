@@ -16,7 +16,7 @@ from estimators.poses import Array
 from estimators.self_calibration.corner_rows import CornerSightings
 from estimators.self_calibration.corners import CornerFinder
 from estimators.self_calibration.edges import find_edges
-from estimators.self_calibration.joint import Evidence, Solution, solve
+from estimators.self_calibration.joint import solve
 from estimators.self_calibration.places import (
     Places,
     RadiusEvidence,
@@ -28,6 +28,7 @@ from estimators.self_calibration.places import (
 from estimators.self_calibration.quantities import PRIOR, Q, values_of, with_vector
 from estimators.self_calibration.residuals import roughness_of
 from estimators.self_calibration.sightings import Sightings, find_pan_offset, find_sightings
+from estimators.self_calibration.solution import Evidence, Solution
 from estimators.self_calibration.uncertainty import correlations_of
 from estimators.self_calibration.walls import find_walls
 

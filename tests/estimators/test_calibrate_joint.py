@@ -8,12 +8,13 @@ import pytest
 from estimators import RecordingError
 from estimators.messages import LaserScan
 from estimators.self_calibration.corner_rows import CornerSightings, corner_derivatives
-from estimators.self_calibration.joint import Evidence, bound, solve
+from estimators.self_calibration.joint import bound, solve
 from estimators.self_calibration.places import Places, RadiusEvidence
 from estimators.self_calibration.quantities import NAMES, PRIOR, Q, values_of, with_vector
 from estimators.self_calibration.rows import expected_columns
 from estimators.self_calibration.run import self_calibrate
 from estimators.self_calibration.sightings import Sightings
+from estimators.self_calibration.solution import Evidence
 from estimators.self_calibration.walls import Walls, expected_ranges
 
 PLANTED = {Q.LRF_YAW: 0.009, Q.RANGE_BIAS: 0.03, Q.RADIUS: 0.103, Q.PAN_OFFSET: 0.035, Q.CLOCK_OFFSET: 0.015}

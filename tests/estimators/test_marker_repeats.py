@@ -11,9 +11,10 @@ from estimators import ImageFrame, TargetGeometry
 from estimators.fused.frame_reading import MarkerReading
 from estimators.fused.views import Views
 from estimators.marker_fit import MarkerFit
-from estimators.marker_fit.measurement import ALIKE, SAME_PIXELS, SWEPT_LEAN, sawtooth
+from estimators.marker_fit.measurement import SAME_PIXELS, SWEPT_LEAN
 from estimators.marker_fit.outline import TargetOutline
 from estimators.marker_fit.problem import Solution
+from estimators.marker_fit.rounding import ALIKE, sawtooth
 from estimators.poses import Pose2, wrap_angle
 
 FIFTH = math.radians(12.0)
