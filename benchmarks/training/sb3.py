@@ -117,9 +117,8 @@ def train(run: Run, folder: Path, *, resume: bool, jobs: int, progress: Progress
     try:
         model = _model(run, folder, envs, resume)
         if model.tensorboard_log is None:
-            model.set_logger(
-                Logger(folder=None, output_formats=[])
-            )  # else it leaves a folder among the system's
+            # Else it leaves a folder among the system's.
+            model.set_logger(Logger(folder=None, output_formats=[]))
         every = max(1, settings.evaluate_every // settings.environments)
         curve = _Curve(checks, folder, settings.evaluate_episodes, every)
         watch = _Watch(folder, settings.checkpoint_every, progress)

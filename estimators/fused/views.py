@@ -32,10 +32,8 @@ class Views:
         """Forget what was seen."""
         self._view: MarkerReading | None = None  # the first that showed the side that is seen now
         self._seen: MarkerMeasurement | None = None  # the last frame
-        self._alike, self._spread = (
-            0,
-            np.zeros((2, 2)),
-        )  # how many frames showed that, and their mean covariance
+        self._alike = 0  # how many frames showed that
+        self._spread = np.zeros((2, 2))  # and their mean covariance
         self._round = _Round()
 
     def reading(self, seen: MarkerMeasurement, yaw: float, rate: float) -> MarkerReading:

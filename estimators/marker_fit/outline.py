@@ -76,9 +76,8 @@ class TargetOutline:
         count = len(self.angles)
         for parts in range(count, 1, -1):
             turned = self.angles[:, None] + 2 * math.pi / parts - self.angles
-            if (
-                np.abs(turned - 2 * math.pi * np.round(turned / (2 * math.pi))).min(axis=1) < SAME_ANGLE
-            ).all():
+            off = np.abs(turned - 2 * math.pi * np.round(turned / (2 * math.pi)))
+            if (off.min(axis=1) < SAME_ANGLE).all():
                 return 2 * math.pi / parts
         return 2 * math.pi
 
