@@ -87,7 +87,9 @@ def _compared(
         return None
     by = units([path for path, _, _ in both])
     by_station = _by_station(firsts, seconds, score_a.raw + score_b.raw)
-    half = by_station
+    raw, left = score_a.raw + score_b.raw, score_a.value + score_b.value
+    # The less is left of what was read, the more does a difference of mean squares make of one of their roots.
+    half = by_station * raw / left if left > 0 else raw
     if by is not None:
         drawn = by.drawn(seed)
         roots = [

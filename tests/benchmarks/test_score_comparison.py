@@ -46,10 +46,11 @@ def position(runs):
     return next(c for c in compare(runs, "fused") if c.what == "position")
 
 
-def test_what_one_run_says_of_itself_is_right():
+@pytest.mark.parametrize(("a", "b"), [(0.0015, 0.002), (0.004, 0.005)])
+def test_what_one_run_says_of_itself_is_right(a, b):
     held, wrong = [], []
     for seed in range(100):
-        one = run(seed, a=0.004, b=0.005)
+        one = run(seed, a=a, b=b)
         found, true = position([one]), true_difference(one)
         assert not found.of_other_runs
         held.append(found.interval[0] <= true <= found.interval[1])
@@ -64,8 +65,8 @@ def test_one_run_ranks_what_the_station_tells_apart_in_it():
 
     assert ranks(list(one.answers), dict.fromkeys(one.answers, 0.0), found)["far"] == 3
     alike = next(c for c in found if (c.first, c.second, c.what) == ("near", "like", "position"))
-    assert alike.resolvable == alike.by_station > 0.0
-    assert alike.significant == (abs(alike.difference) > alike.by_station)
+    assert alike.resolvable > alike.by_station > 0.0
+    assert alike.significant == (abs(alike.difference) > alike.resolvable)
 
 
 @pytest.mark.parametrize("count", [3, 6])
