@@ -15,6 +15,12 @@ from estimators.poses import Array, Pose2
 
 MOST_LASTING: Final = 0.95
 """Largest share of a frame's variance that is taken to last; the rest keeps the filter well conditioned."""
+MOST_CARRIED: Final = 0.9
+"""Part of a frame's variance that follows the frame before while a camera sweeps, as rounding does.
+
+Measured on `tiny`, 40 robots (seed 1002): bearings correlate with the next by -0.46, yaws by -0.39, where rounding does
+by -0.47.
+"""
 MOST_ASIDE: Final = 0.8
 """Largest share of a bearing's variance that limbs and shape are taken for."""
 SHAPE_TURN: Final = 0.2
@@ -38,8 +44,11 @@ class MarkerReading:
             says it so much worse that lasting errors would fade at rest.
         view: The first reading of the same view, if there was one before.
         round: After how many frames the same picture comes again; see `MarkerMeasurement.round_of`.
+        carried: How much of the error of the frame before comes back in this one, if it is no share that fades; see
+            `carried_over`.
         R: See `Reading`.
         lasting: What one standard deviation of each of its biases does to bearing and yaw (2, k) [rad].
+        returned: See `Reading`.
     """
 
     seen: MarkerMeasurement
@@ -47,8 +56,10 @@ class MarkerReading:
     side: float
     view: MarkerReading | None = None
     round: int = 1
+    carried: float | None = None
     R: Array = field(init=False)
     lasting: Array = field(init=False)
+    returned: Array | None = field(init=False, default=None)
 
     def __post_init__(self) -> None:
         seen, covariance = self.seen, self.seen.covariance
@@ -60,20 +71,26 @@ class MarkerReading:
         aside = np.array([[1.0, 1.0], [seen.lean, seen.shape_lean]]) * sigma
         rest = covariance - own @ own.T
         # Of pictures that come again in turns their mean lasts.
-        share = min(seen.systematic, MOST_LASTING) / self.round
+        share = min(seen.systematic, MOST_LASTING if self.carried is None else MOST_CARRIED) / self.round
         scale = seen.sensitivity * seen.scale_error * seen.distance
         repeated = share * rest
         if seen.repeated is not None:
             # Of what lasts limbs and shape take the same part as of the whole.
             left = np.linalg.cholesky(rest) @ np.linalg.inv(np.linalg.cholesky(covariance))
             repeated = MOST_LASTING * left @ seen.repeated @ left.T
+        fresh = rest - repeated
         pixels = np.linalg.cholesky(repeated)
+        if self.carried is not None:
+            pixels = pixels / math.sqrt(1.0 + self.carried**2)
+            fresh = fresh + pixels @ pixels.T
+            object.__setattr__(self, "returned", np.linalg.solve(fresh, pixels).T)
+            pixels = self.carried * pixels
         lasting = np.column_stack([pixels, aside, scale, [0.0, seen.marker_error]])
         if self.view is not None and not seen.quantised:
             # How large an error is said to be that lasts must not change while it does, as noise would have it: the
             # filter would take the difference between frames for a sign of the error.
             lasting = self.view.lasting
-        object.__setattr__(self, "R", rest - repeated)
+        object.__setattr__(self, "R", fresh)
         object.__setattr__(self, "lasting", lasting)
 
     @property
@@ -118,8 +135,10 @@ class MarkerReading:
         """See `Reading`."""
         passed, turned = self._moved(before, velocities, turning)
         image, limbs = self.seen.kept(before.seen, passed, turned)
-        if self.round != before.round:
+        if self.round != before.round or (self.carried is None) != (before.carried is None):
             image = np.zeros_like(image)
+        elif self.carried is not None:
+            image = self.seen.carried_on(passed, turned)
         elif self.round > 1:
             image = self.seen.kept_in_round(self.round, before.seen, passed, turned)
         shape = np.exp(-turned / SHAPE_TURN)

@@ -14,6 +14,7 @@ import numpy as np
 
 from estimators.fused.mixtures import mixtures
 from estimators.fused.motion import BIASES, CREEP, MotionModel, switching
+from estimators.fused.returning import Returned
 from estimators.fused.second_stage import SecondStage
 from estimators.poses import Array, wrap_angle
 
@@ -138,6 +139,7 @@ class ModeFilter:
         gate: float,
         plausible: Plausible = lambda log_likelihood: log_likelihood,
         slopes: Slopes | None = None,
+        returned: Array | None = None,
     ) -> Innovation:
         """Take a measurement.
 
@@ -149,6 +151,7 @@ class ModeFilter:
             gate: Largest squared Mahalanobis length, in the most willing mode, that is let in.
             plausible: What becomes of the log-likelihoods that a Gaussian error would give the modes.
             slopes: How the measurement follows what is calibrated; None if not at all.
+            returned: What of this measurement comes back in the next, see `Reading`.
         """
         expected, H = measured(self.x)
         residual = z - expected
@@ -179,6 +182,12 @@ class ModeFilter:
         if stage is not None:
             self.J = A @ self.J + K @ by_calibration
             self.off, self.open = stage.learnt(self.weights)
+        if returned is not None:
+            expected, H = measured(self.x)
+            left = Returned.of(returned, z - expected, H, R, angles)
+            if slopes and self.J.size:
+                self.J = left.slopes(self.J, slopes(self.x, H))
+            self.x, self.P = left.put_into(self.x), left.covariance(self.P)
         return innovation
 
     def turning(self) -> Array:

@@ -31,6 +31,13 @@ class Reading(Protocol):
         """Covariance (k, k) of the part of the error that is fresh."""
 
     @property
+    def returned(self) -> Array | None:
+        """What comes back in the next reading, by what this one leaves unexplained (k, k); None if nothing does.
+
+        It takes the place of the first k biases, each of variance one.
+        """
+
+    @property
     def angles(self) -> Array:
         """Which values are angles (k,)."""
 

@@ -55,6 +55,10 @@ class PositionReading:
         return self.fix.stamp
 
     @property
+    def returned(self) -> None:
+        """See `Reading`."""
+
+    @property
     def biases(self) -> slice:
         """See `Reading`."""
         return SCAN_BIASES

@@ -15,6 +15,7 @@ import numpy as np
 
 from estimators.fused.mode_filter import turning
 from estimators.fused.motion import BIASES, CREEP, switching
+from estimators.fused.returning import Returned
 from estimators.fused.second_stage import SecondStage, corrected
 from estimators.fused.track import Moment, Track
 from estimators.poses import Array, wrap_angle
@@ -95,6 +96,7 @@ def _forward(track: Track, moments: Sequence[Moment], modes: Array) -> tuple[lis
     x, P, J = track.start
     off, open_ = moments[0].off, moments[0].open
     steps = [_Step(x, P, np.eye(n), x, P, J, J)]
+    T, returns = np.eye(n), np.zeros((n, n))  # what the reading before replaced
     for (before, moment), chance in zip(pairwise(moments), modes[1:], strict=True):
         reading = moment.reading
         dt = reading.stamp - before.reading.stamp
@@ -107,8 +109,10 @@ def _forward(track: Track, moments: Sequence[Moment], modes: Array) -> tuple[lis
             turns = turning(model, x[None], P[None])
             fade[n - BIASES :][reading.biases] = reading.kept(latest, model.velocities(x[None]), turns)[0]
         x, A = fade * x, fade[:, None] * A
-        P = A @ P @ A.T + fade[:, None] * Q * fade + np.diag(1 - fade**2)
         J = A @ J
+        A = A @ T
+        P = A @ P @ A.T + fade[:, None] * (Q + returns) * fade + np.diag(1 - fade**2)
+        T, returns = np.eye(n), np.zeros((n, n))
         predicted, P_predicted, J_predicted = x, P, J
         if chance[rest].sum() > RESTS:
             speeds = np.eye(n)[3 : 3 + len(model.speed_sigmas)]
@@ -123,6 +127,13 @@ def _forward(track: Track, moments: Sequence[Moment], modes: Array) -> tuple[lis
             off, open_ = _learnt(off, open_, P, J, residual, H[0], reading.R, by_calibration)
             x, P, J = _update(x, P, J, residual, H[0], reading.R, by_calibration)
         steps.append(_Step(predicted, P_predicted, A, x, P, J_predicted, J))
+        if moment.accepted and reading.returned is not None and latest is not None:
+            expected, H = reading.expected(x[None])
+            left = reading.z - expected
+            returned = Returned.of(reading.returned, left, H, reading.R, reading.angles)
+            T, returns = returned.T[0], returned.noise
+            J = returned.slopes(J[None], track.slopes.of(reading, model, x[None], H))[0]
+            x = returned.put_into(x[None])[0]
     return steps, off, open_
 
 

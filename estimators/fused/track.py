@@ -168,6 +168,7 @@ class Track:
                 GATE,
                 lambda log_likelihood: reading.plausible(before, *motion, log_likelihood),
                 self._slopes(reading),
+                reading.returned,
             )
         self._moments.append(self._moment(reading, innovation, {**last.latest, type(reading): reading}))
         return innovation

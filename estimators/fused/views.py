@@ -10,6 +10,7 @@ import numpy as np
 
 from estimators.fused.frame_reading import MarkerReading
 from estimators.marker_fit import MarkerMeasurement
+from estimators.marker_fit.rounding import carried_over, sawtooth
 from estimators.poses import Pose2
 
 SWEEPS: Final = 1.0
@@ -69,7 +70,16 @@ class Views:
             self._alike += 1
             self._spread = self._spread + (seen.covariance - self._spread) / self._alike
         self._seen, view = seen, self._view or view
-        return MarkerReading(seen.steadied(view.seen, self._spread), self._mount, side, view)
+        steadied = seen.steadied(view.seen, self._spread)
+        return MarkerReading(steadied, self._mount, side, view, carried=_carried(last, seen))
+
+
+def _carried(last: MarkerMeasurement, seen: MarkerMeasurement) -> float | None:
+    """How much of the error of the frame before comes back in this one of a sweep, see `carried_over`."""
+    if not (seen.is_swept and last.is_swept):
+        return None
+    panned = abs(math.remainder(seen.direction - last.direction, 2 * math.pi))
+    return carried_over(float(sawtooth(np.array(seen.pixels[0] * panned))))
 
 
 class _Round:

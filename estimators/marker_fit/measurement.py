@@ -120,6 +120,7 @@ class MarkerMeasurement:
             shape_error=self.shape_error * (LINEAR_SWEPT / SWEPT),
             marker_error=self.marker_error * (LINEAR_SWEPT / SWEPT),
             lean=float(covariance[0, 1] / covariance[0, 0]),
+            limb_error=0.0,
             linear=None,
             is_swept=True,
         )
@@ -184,6 +185,11 @@ class MarkerMeasurement:
             return limbs * np.maximum(0.0, 1.0 - around / SAME_PIXELS), limbs
         most = np.maximum(aside, around)
         return np.maximum(0.0, 1.0 - most / SAME_PIXELS), np.maximum(0.0, 1.0 - aside / SAME_PIXELS)
+
+    def carried_on(self, passed: Array, turned: Array) -> Array:
+        """How much of an error that comes back in the next frame of a sweep is left if the target moved: see `kept`."""
+        most = np.maximum(self.pixels[0] * np.abs(passed), self.pixels[1] * np.abs(turned))
+        return np.asarray(np.maximum(0.0, 1.0 - most / SAME_PIXELS))
 
     def round_of(self, turned: float) -> int:
         """After how many frames a target that turns so far from each to the next [rad] is seen as it was.

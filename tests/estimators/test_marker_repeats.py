@@ -100,16 +100,24 @@ def test_pictures_in_turns_are_believed_alike_and_leave_the_variance_of_their_me
 def test_a_camera_that_sweeps_before_a_target_at_rest_is_read_by_least_squares(sampled):
     views, pixel = Views(Pose2()), 1 / sampled.pixels[0]
     swept = []
-    for shift in (0.0, 0.0, 0.6, 1.2, 0.7):
+    for shift in (0.0, 0.0, 0.6, 1.2, 0.7, 0.2, 0.7):
         seen = dataclasses.replace(sampled, direction=sampled.direction + shift * pixel)
         swept.append(views.reading(seen, seen.yaw, 0.0))
-    assert [r.seen.is_swept for r in swept] == [False, False, False, True, True]
+    assert [r.seen.is_swept for r in swept] == [False, False, False, True, True, True, True]
     assert swept[-1].seen.bearing == pytest.approx(sampled.direction + 0.7 * pixel + 0.001)
     assert swept[-1].seen.covariance[0, 0] == pytest.approx(3e3 / (2e5 * 3e3 - 2e4**2))
     assert swept[-1].seen.shape_lean == SWEPT_LEAN * swept[-1].seen.lean
     assert swept[0].seen.shape_lean == swept[0].seen.lean
+    assert [r.carried for r in swept[:5]] == [None, None, None, None, pytest.approx(-1.0, abs=1e-3)]
     kept = swept[-1].kept(swept[-2], np.zeros((1, 2)), np.zeros(1))[0]
-    np.testing.assert_allclose(kept[[0, 1, 2, 4]], -0.5, atol=1e-6)
+    np.testing.assert_allclose(kept[[0, 1]], 1.0, atol=1e-6)  # what the one before left unexplained
+    np.testing.assert_allclose(kept[4], -0.5, atol=1e-6)
+    first = swept[4].kept(swept[3], np.zeros((1, 2)), np.zeros(1))[0]
+    np.testing.assert_array_equal(first[[0, 1]], 0.0)  # nothing was left yet
+    fresh, again = swept[-1].R, swept[-1].lasting[:, :2]
+    stated = swept[-1].seen.covariance
+    shape = swept[-1].seen.shape_error / swept[-1].seen.distance
+    assert (fresh + again @ again.T)[0, 0] == pytest.approx(stated[0, 0] - shape**2)
     turned = dataclasses.replace(sampled, direction=sampled.direction + 2 * pixel)
     assert not views.reading(turned, turned.yaw + 0.3, 0.0).seen.is_swept
 
