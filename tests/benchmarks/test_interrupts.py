@@ -12,6 +12,20 @@ from benchmarks.interrupts import interrupts_raised
 pytestmark = pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="needs the signals of POSIX")
 
 
+@pytest.fixture(autouse=True)
+def _as_from_a_terminal():
+    """Signals as a terminal leaves them: a job in the background, or under `nohup`, ignores some from the start."""
+    usual = {
+        signal.SIGINT: signal.default_int_handler,
+        signal.SIGTERM: signal.SIG_DFL,
+        signal.SIGHUP: signal.SIG_DFL,
+    }
+    before = {number: signal.signal(number, answer) for number, answer in usual.items()}
+    yield
+    for number, answer in before.items():
+        signal.signal(number, answer)
+
+
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
 def test_a_kill_and_a_closed_terminal_are_ctrl_c_to_the_work_inside_and_to_none_after_it(name):
     number = getattr(signal, name)
