@@ -2,6 +2,7 @@
 
 import io
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -66,6 +67,8 @@ def play_in_a_pseudo_terminal(keys, folder):
         stdout=its_end,
         stderr=its_end,
         start_new_session=True,
+        # A shell gives what it starts in a terminal the signals' usual answers, however these tests were started.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
         env=os.environ | {"TERM": "xterm", "COLUMNS": "90", "LINES": "30"},
     )
     os.close(its_end)
