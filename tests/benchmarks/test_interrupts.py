@@ -38,12 +38,15 @@ def test_a_kill_and_a_closed_terminal_are_ctrl_c_to_the_work_inside_and_to_none_
 
 
 def test_what_a_process_was_started_to_ignore_it_ignores():
-    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)  # as `nohup` does
-    try:
-        with interrupts_raised():
-            signal.raise_signal(signal.SIGHUP)
-    finally:
-        signal.signal(signal.SIGHUP, before)
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)  # as `nohup` does
+    went_on = False
+
+    with interrupts_raised():
+        signal.raise_signal(signal.SIGHUP)
+        went_on = True
+
+    assert went_on
+    assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
 
 
 class Deaf:
