@@ -15,7 +15,7 @@ from gt_env.config import EnvConfig
 from gt_env.config.problems import pose_problem
 from gt_env.tasks.features import NEAR, POLAR, in_frame, polar_features
 from gt_env.tasks.paths import POINTS, Path, PathFollower, sample_path
-from gt_env.tasks.sampling import check_points
+from gt_env.tasks.sampling import TRIES, check_points
 from gt_env.tasks.task import COMMON_TERMS, Judgement, Moment, Task
 
 CARROT: Final = 0.3
@@ -110,7 +110,7 @@ class FollowPath(Task):
         self._path: Path = (
             self._configured(room) if self.settings.path else sample_path(rng, self._config, room)
         )
-        pose = start or self._start(rng)
+        pose = start or self._start(rng, room)
         problem = pose_problem(self._config, room, pose)
         if problem:
             raise ConfigError(f"task.path starts at ({pose.x:.2f}, {pose.y:.2f}): {problem}")
@@ -126,11 +126,16 @@ class FollowPath(Task):
         check_points(path.points, self._config, room, "task.path")
         return path
 
-    def _start(self, rng: np.random.Generator) -> Pose2:
+    def _start(self, rng: np.random.Generator, room: Room) -> Pose2:
+        """Near the path's beginning; on it if the robot can stand nowhere beside it."""
         x, y = self._path.points[0]
         along = Pose2(x=x, y=y, yaw=self._path.direction(0.0))
-        beside, turn = rng.uniform(-START_OFFSET, START_OFFSET), rng.uniform(-START_TURN, START_TURN)
-        return along @ Pose2(y=beside, yaw=turn)
+        for _ in range(TRIES):
+            beside, turn = rng.uniform(-START_OFFSET, START_OFFSET), rng.uniform(-START_TURN, START_TURN)
+            pose = along @ Pose2(y=beside, yaw=turn)
+            if pose_problem(self._config, room, pose) is None:
+                return pose
+        return along
 
     def judge(self, moment: Moment) -> Judgement:
         """Progress is the way along the path, and being beside it costs."""

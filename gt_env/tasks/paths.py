@@ -11,6 +11,7 @@ from estimators.errors import ConfigError
 from estimators.poses import Array, Pose2
 from estimators.room import Room
 from gt_env.config import EnvConfig
+from gt_env.config.problems import pose_problem
 from gt_env.tasks.sampling import TRIES, is_free
 
 POINTS: Final = 100
@@ -104,7 +105,7 @@ def sample_path(rng: np.random.Generator, config: EnvConfig, room: Room) -> Path
         shape = _SHAPES[rng.integers(len(_SHAPES))]
         centre = _drawn_pose(rng, low, high)
         path = Path(centre.apply(shape(rng.uniform(0.8, 1.8), rng.uniform(0.5, 1.0))))
-        if _bends_gently(path) and all(is_free(p, config, room) for p in path.points[::4]):
+        if _bends_gently(path) and _has_room(path, config, room):
             return path
     raise ConfigError(
         f"task.margin = {config.task.margin}: no path found that fits into the room in {TRIES} tries; "
@@ -115,6 +116,16 @@ def sample_path(rng: np.random.Generator, config: EnvConfig, room: Room) -> Path
 def _drawn_pose(rng: np.random.Generator, low: Array, high: Array) -> Pose2:
     x, y = rng.uniform(low, high)
     return Pose2(x=x, y=y, yaw=rng.uniform(-math.pi, math.pi))
+
+
+def _has_room(path: Path, config: EnvConfig, room: Room) -> bool:
+    """Whether the robot's whole body stays in the room along the path, not its middle alone."""
+    points = path.points[::4]
+    if not all(is_free(point, config, room) for point in points):
+        return False
+    stations = path.stations[::4]
+    poses = (Pose2(x=x, y=y, yaw=path.direction(at)) for (x, y), at in zip(points, stations, strict=True))
+    return all(pose_problem(config, room, pose) is None for pose in poses)
 
 
 def _bends_gently(path: Path) -> bool:

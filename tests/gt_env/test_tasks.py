@@ -6,8 +6,7 @@ import pytest
 from estimators import ConfigError, Pose2
 from gt_env import load_config
 from gt_env.tasks.features import distance_of
-from gt_env.tasks.follow_path import FollowPath, PathReferee
-from gt_env.tasks.paths import SMALLEST_RADIUS, Path, sample_path
+from gt_env.tasks.follow_path import FollowPath
 from gt_env.tasks.patrol import Patrol
 from gt_env.tasks.reach import Reach
 from gt_env.tasks.sight import sight_radius
@@ -146,27 +145,6 @@ def test_a_path_ends_at_its_end_and_is_lost_outside_its_corridor():
 
 
 CORNER_POINTS = [(x, 1.0) for x in np.linspace(-0.8, 0.8, 9)] + [(1.0, y) for y in np.linspace(1.1, 2.95, 9)]
-
-
-def test_where_a_path_crosses_itself_the_branch_is_kept():
-    t = np.linspace(0.0, 2 * np.pi, 400)
-    path = Path(np.column_stack([1.6 * np.sin(t), 2.0 + 0.8 * np.sin(2 * t)]))
-    referee = PathReferee(path, 0.3, 0.1)
-    stations = []
-    for s in np.arange(0.0, path.length, 0.05):
-        referee.see(path.at(s))
-        stations.append(referee.follower.station)
-
-    assert stations == pytest.approx(np.arange(0.0, path.length, 0.05), abs=0.02)
-    assert referee.success
-
-
-def test_sampled_paths_bend_no_tighter_than_they_should():
-    for seed in range(20):
-        path = sample_path(np.random.default_rng(seed), CONFIG, ROOM)
-        steps = np.diff(path.points, axis=0)
-        turn = np.abs(np.diff(np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))))
-        assert (np.hypot(*steps.T).mean() / turn.max()) >= 0.99 * SMALLEST_RADIUS
 
 
 @pytest.mark.parametrize("task_type", TASKS)
