@@ -74,7 +74,7 @@ class SweepError(GtEnvError):
         tasks: dict[str, list[str]] = {}
         for failure in failures:
             tasks.setdefault(failure.reason, []).append(failure.task)
-        said = "; ".join(f"{_listed(named)}: {reason}" for reason, named in list(tasks.items())[:NAMED])
+        said = "; ".join(f"{listed(named)}: {reason}" for reason, named in list(tasks.items())[:NAMED])
         said += f"; and {len(tasks) - NAMED} other reasons" if len(tasks) > NAMED else ""
         super().__init__(f"{len(failures)} of {len(results)} runs failed: {said}")
         self.failures = tuple(failures)
@@ -137,7 +137,8 @@ def run_side_by_side(
     return cast(list[Result], results)
 
 
-def _listed(names: Sequence[str]) -> str:
+def listed(names: Sequence[str]) -> str:
+    """The first few names, and how many more there are."""
     more = len(names) - NAMED
     return ", ".join(names[:NAMED]) + (f" and {more} more" if more > 0 else "")
 

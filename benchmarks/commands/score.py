@@ -120,7 +120,7 @@ def score(
     """Score localizers against the ground truth, and say where the reference is not good enough."""
     from benchmarks.engines import Engine
     from benchmarks.scoring.carry_out import carry_out
-    from benchmarks.scoring.write import offset_lines, problems, write_page
+    from benchmarks.scoring.write import offset_lines, write_page
 
     if not no_figures:
         require_report_extra()
@@ -152,4 +152,4 @@ def score(
         if not no_figures:
             write_page(folder, result, request.room(), setup, console)
     page = out / ("report.json" if no_figures else "report.html")
-    show(console, result.tables()[:SHOWN_TABLES], *problems(result), *offset_lines(result), str(page))
+    show(console, result.tables()[:SHOWN_TABLES], *result.problems(), *offset_lines(result), str(page))

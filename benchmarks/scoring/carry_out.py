@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -37,6 +38,7 @@ def carry_out(request: Request, *, jobs: int, engine: Engine, console: Console, 
         ConfigError: If the set-up cannot be.
         RecordingError: If a file cannot be read.
         SweepError: If a run failed.
+        NobodyScoredError: If no subject came to a score.
         TrajectoryError: If an alignment is not determined, or a file has no time in common with the station's.
     """
     runs: list[JudgedRun]
@@ -57,10 +59,12 @@ def carry_out(request: Request, *, jobs: int, engine: Engine, console: Console, 
             jobs=jobs,
             label="driving",
             console=console,
-            names=[f"{task.path}, run {task.number}" for task in tasks],
+            names=[f"{task.called} of --seed {request.seed}" for task in tasks],
             engine=engine,
         )
-    return Result.of(runs, request.rules, request.reference)
+    result = Result.of(runs, request.rules, request.reference)
+    result.refuse_nobody()
+    return result
 
 
 def _check_wheels(subjects: Sequence[Subject], config: EnvConfig) -> None:
@@ -74,6 +78,7 @@ def _check_wheels(subjects: Sequence[Subject], config: EnvConfig) -> None:
 
 
 def _recorded(request: Request, console: Console) -> list[JudgedRun]:
+    """Recordings of one name in several folders are numbered."""
     from benchmarks.recording.sources import LawOptions, open_source
 
     runs = []
@@ -91,4 +96,8 @@ def _recorded(request: Request, console: Console) -> list[JudgedRun]:
                 number,
             )
         )
-    return runs
+    stems = [run.name for run in runs]
+    return [
+        replace(run, name=f"{run.name}-{number}") if stems.count(run.name) > 1 else run
+        for number, run in enumerate(runs)
+    ]

@@ -65,7 +65,7 @@ class JudgedRun:
 
     Attributes:
         name: Of the path or the recording.
-        seed: Of the run; None for a recording.
+        turn: Which run of its path, counted from 0; None for a recording.
         judged: By reference, then by subject.
         answers: By subject.
         references: By name.
@@ -75,7 +75,7 @@ class JudgedRun:
     """
 
     name: str
-    seed: int | None
+    turn: int | None
     judged: Mapping[str, Mapping[str, Judged]]
     answers: Mapping[str, Answers]
     references: Mapping[str, Trajectory] = field(default_factory=dict)
@@ -83,15 +83,25 @@ class JudgedRun:
     reference_errors: Mapping[str, ReferenceErrors] = field(default_factory=dict)
     start: str = ""
 
+    @property
+    def called(self) -> str:
+        """What it is called in reports and messages."""
+        return called(self.name, self.turn)
+
     def without_series(self) -> JudgedRun:
         """The same for the numbers alone."""
         answers = {name: said.without_series() for name, said in self.answers.items()}
         return replace(self, answers=answers, references={}, truth=None)
 
 
+def called(name: str, turn: int | None) -> str:
+    """A run by its path and its number among the runs of that path, as the file is called that it is recorded in."""
+    return name if turn is None else f"{name}-{turn}"
+
+
 def judge(
     name: str,
-    seed: int | None,
+    turn: int | None,
     number: int,
     answers: Mapping[str, Answers],
     references: Mapping[str, Trajectory],
@@ -103,7 +113,7 @@ def judge(
 
     Args:
         name: Of the path or recording.
-        seed: Of the run, if it has one.
+        turn: Which run of its path; None for a recording.
         number: Of the run among all.
         answers: By subject.
         references: By reference.
@@ -128,7 +138,7 @@ def judge(
     }
     return JudgedRun(
         name=name,
-        seed=seed,
+        turn=turn,
         judged=judged,
         answers=answers,
         references=references,

@@ -15,7 +15,7 @@ from benchmarks.following import Follower, check_followed
 from benchmarks.paths import CALM_SPEED, LONG_DRIVE, PATHS, timed_poses
 from benchmarks.recording.writer import RecordingWriter
 from benchmarks.rollout import ARENA
-from benchmarks.scoring.judge import TRUE_START, JudgedRun, Rules, judge
+from benchmarks.scoring.judge import TRUE_START, JudgedRun, Rules, called, judge
 from benchmarks.scoring.subjects import Subject, make_localizer
 from benchmarks.scoring.watch import Watch
 from estimators.errors import ConfigError
@@ -36,6 +36,7 @@ class LiveRun:
         path: One of `PATHS` or `DRIVES`.
         duration: Of a path [s]; drives take as long as they take.
         speed: The greatest on a path [m/s].
+        turn: Which run of that path, counted from 0.
         seed: Of the episode; the localizers' own randomness has the seed of the rules, as in a recording.
         number: Of the run among all.
         rules: How it is judged.
@@ -46,6 +47,7 @@ class LiveRun:
     config: EnvConfig
     subjects: tuple[Subject, ...]
     path: str
+    turn: int = 0
     seed: int
     number: int
     rules: Rules
@@ -53,6 +55,11 @@ class LiveRun:
     speed: float = CALM_SPEED
     recording: str = ""
     series: bool = True
+
+    @property
+    def called(self) -> str:
+        """What it is called in reports and messages."""
+        return called(self.path, self.turn)
 
     def plan(self) -> Array:
         """Where the robot is to be at the start and at the end of each step (N, 3) [m, m, rad].
@@ -118,7 +125,7 @@ def score_live(run: LiveRun, on_step: Callable[[], None] | None = None) -> Judge
             recorder.discard()
     judged = judge(
         run.path,
-        run.seed,
+        run.turn,
         run.number,
         watch.answers(),
         watch.references(),

@@ -10,10 +10,9 @@ from typing import Any, Final
 import numpy as np
 
 from benchmarks.report.setup import versions
-from benchmarks.scoring.judge import Rules
+from benchmarks.scoring.judge import Rules, called
 from benchmarks.scoring.live import PATHS_SCORED, LiveRun, path_named
 from benchmarks.scoring.subjects import Subject, all_subjects
-from benchmarks.scoring.summary import run_name
 from benchmarks.scoring.write import Result
 from benchmarks.trajectory.alignment import ALIGNMENTS, TITLES
 from estimators.errors import ConfigError
@@ -168,17 +167,16 @@ class Request:
             ConfigError: If a path does not fit into the room.
         """
         settings = self.settings()
-        children = np.random.SeedSequence(self.seed).spawn(len(self.paths) * self.seeds)
         runs = []
-        for number, child in enumerate(children):
-            path, turn = self.paths[number // self.seeds], number % self.seeds
-            place = str(folder / f"{path}-{turn}.mcap") if self.record else ""
+        for number, (path, turn, seed) in enumerate(self._episodes()):
+            place = str(folder / f"{called(path, turn)}.mcap") if self.record else ""
             runs.append(
                 LiveRun(
                     config=settings,
                     subjects=self.subjects,
                     path=path,
-                    seed=int(child.generate_state(1)[0]),
+                    turn=turn,
+                    seed=seed,
                     number=number,
                     rules=self.rules,
                     duration=self.duration,
@@ -188,6 +186,12 @@ class Request:
             )
         return runs
 
+    def _episodes(self) -> list[tuple[str, int, int]]:
+        """Path, number among its runs and seed of every live run."""
+        kinds = [(path, turn) for path in self.paths for turn in range(self.seeds)] if self.live else []
+        children = np.random.SeedSequence(self.seed).spawn(len(kinds))
+        return [(*kind, int(child.generate_state(1)[0])) for kind, child in zip(kinds, children, strict=True)]
+
     def described(self, result: Result) -> dict[str, Any]:
         """What a report was made from, and how to make it again."""
         config = self.settings() if self.live else self.believed(None)
@@ -195,9 +199,10 @@ class Request:
             "command": shlex.join(["gt-env", "score", *self.words]),
             "lead": _lead(result, self.live),
             "seed": self.seed,
-            "runs": [run.name if run.seed is None else f"{run.name} {run.seed}" for run in result.runs],
+            "runs": [run.called for run in result.runs],
+            "episode_seeds": {called(path, turn): seed for path, turn, seed in self._episodes()},
             "reference": self.reference,
-            "starts": {run_name(run): run.start for run in result.runs},
+            "starts": {run.called: run.start for run in result.runs},
             "align": self.rules.align,
             "alignment": TITLES[self.rules.align],
             "duration": self.duration if self.live else None,

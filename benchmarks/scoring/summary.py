@@ -96,11 +96,6 @@ def summarise(runs: Sequence[JudgedRun], reference: str, seed: int = 0) -> list[
     return [_subject(name, runs, reference, seed) for name in runs[0].answers]
 
 
-def run_name(run: JudgedRun) -> str:
-    """Of a run, for people."""
-    return run.name if run.seed is None else f"{run.name}, seed {run.seed}"
-
-
 def _subject(name: str, runs: Sequence[JudgedRun], reference: str, seed: int) -> SubjectSummary:
     answers = [run.answers[name] for run in runs]
     ages = np.concatenate([a.latencies() for a in answers])
@@ -116,9 +111,9 @@ def _subject(name: str, runs: Sequence[JudgedRun], reference: str, seed: int) ->
         latency=(float(ages.mean()), float(ages.max())) if len(ages) else None,
         update_time=seconds,
         problems=_problems(name, runs),
-        why_not={run_name(r): j.why_not for r, j in zip(runs, chosen, strict=True) if j.errors is None},
+        why_not={r.called: j.why_not for r, j in zip(runs, chosen, strict=True) if j.errors is None},
         by_run={
-            run_name(r): {q: corrected([j.errors.quantities[q]], DOUBT) for q in ("position", "yaw")}
+            r.called: {q: corrected([j.errors.quantities[q]], DOUBT) for q in ("position", "yaw")}
             for r, j in zip(runs, chosen, strict=True)
             if j.errors is not None
         },

@@ -15,6 +15,7 @@ from benchmarks.report.scores import MM
 from benchmarks.report.tables import NONE, Table
 from benchmarks.scoring.checks import checked
 from benchmarks.scoring.comparison import Comparison, compare, ranks
+from benchmarks.scoring.failed import problems, refuse_nobody
 from benchmarks.scoring.judge import JudgedRun, Rules
 from benchmarks.scoring.report import OFFSET_UNITS, report
 from benchmarks.scoring.summary import SubjectSummary, summarise
@@ -82,6 +83,19 @@ class Result:
             checked(self.runs),
         )
 
+    def problems(self) -> list[str]:
+        """What went wrong with whom, and who was not scored in which runs."""
+        return problems(self.summaries, self._source)
+
+    def refuse_nobody(self) -> None:
+        """Raise `NobodyScoredError` unless somebody was scored."""
+        refuse_nobody(self.summaries, self.reference, self._source)
+
+    @property
+    def _source(self) -> str:
+        """What tells simulated runs from others of the same names."""
+        return "" if self.runs[0].turn is None else f" of --seed {self.rules.seed}"
+
     def json(self, setup: Mapping[str, Any]) -> str:
         """The text of `report.json`."""
         return report(self.summaries, self.comparisons, self.ranks, self.reference, setup, checked(self.runs))
@@ -100,7 +114,7 @@ def write_page(folder: Path, result: Result, room: Room, setup: Mapping[str, Any
         setup,
         facts=_facts(result),
         tables=result.tables(),
-        problems=problems(result),
+        problems=result.problems(),
         plates=shown,
     )
 
@@ -153,18 +167,6 @@ def plates(result: Result, room: Room) -> list[Plate]:
 
 def _plate(name: str, caption: str, draw: Any) -> Plate:
     return Plate(name=name, section="score", repeats="", caption=caption, draw=draw)
-
-
-def problems(result: Result) -> list[str]:
-    """What went wrong with whom, and who was not scored in which run."""
-    return [
-        line
-        for s in result.summaries
-        for line in (
-            *s.problems,
-            *(f"{s.name}: not scored in {run}: {why}" for run, why in s.why_not.items()),
-        )
-    ]
 
 
 def offset_lines(result: Result) -> list[str]:

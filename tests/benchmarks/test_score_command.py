@@ -110,6 +110,47 @@ def test_a_planted_clock_offset_and_lever_arm_are_found_on_the_figure_of_eight(c
         assert error < 0.05 * 50  # and so precisely that it is no wonder
 
 
+def test_who_was_not_scored_is_named_with_the_runs_as_their_recordings_are(command, tmp_path):
+    (tmp_path / "mute.py").write_text("def says_nothing(message):\n    return None\n")
+    short = (
+        "--path",
+        "eight",
+        "--duration",
+        "1",
+        "--seeds",
+        "2",
+        "--seed",
+        "5",
+        "--jobs",
+        "1",
+        "--no-figures",
+    )
+
+    status, said = command("score", "mute:says_nothing", "odometry", *short, "--record")
+    assert status == 0, said
+    assert "mute:says_nothing: not scored in figure-of-eight-0, figure-of-eight-1 of --seed 5: " in said
+    report = json.loads((tmp_path / "out/score/report.json").read_text())
+    kept = [path.stem for path in sorted((tmp_path / "out/score").glob("*.mcap"))]
+    assert list(report["subjects"]["odometry"]["each_run"]) == report["setup"]["runs"] == kept
+
+
+def test_a_score_of_nobody_is_one_line_a_failure_and_no_report(command, tmp_path):
+    (tmp_path / "unlucky.py").write_text("def raises(message):\n    raise RuntimeError('no idea')\n")
+
+    status, said = command(
+        "score", "unlucky:raises", "--path", "eight", "--duration", "1", "--seed", "5", "--jobs", "1",
+        "--no-figures",
+    )  # fmt: skip
+    assert status == 1
+    assert said.startswith(
+        "gt-env: nobody could be scored in figure-of-eight-0, figure-of-eight-1, figure-of-eight-2 of --seed 5: "
+        "unlucky:raises: raised, "
+    )
+    assert "RuntimeError: no idea" in said
+    assert said.count("\n") == 1
+    assert [path.name for path in tmp_path.iterdir() if path.name != "__pycache__"] == ["unlucky.py"]
+
+
 def test_it_writes_a_page_with_its_figures(command, tmp_path):
     pytest.importorskip("matplotlib")
     status, said = command(
