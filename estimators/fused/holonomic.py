@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from estimators.fused.motion import BIASES, Mode
+from estimators.fused.motion import BIASES, RESTING, Mode
 from estimators.poses import Array
 
 
@@ -17,7 +17,7 @@ class Holonomic:
     # Where it goes says nothing of how it turns, so the two may change apart. To turn at a constant speed is to
     # accelerate sideways, which no mode without acceleration would follow.
     modes: tuple[Mode, ...] = (
-        Mode(name="rest", duration=10.0, acceleration=0.0, turning=0.0),
+        Mode(name="rest", duration=RESTING, acceleration=0.0, turning=0.0),
         Mode(name="cruise", duration=3.0, acceleration=0.15, turning=0.05),
         Mode(name="start or stop", duration=0.3, acceleration=1.2, turning=0.05),
         Mode(name="turn", duration=0.3, acceleration=0.15, turning=1.0),
@@ -50,7 +50,7 @@ class Point(Holonomic):
 
     oriented = False
     modes: tuple[Mode, ...] = (
-        Mode(name="rest", duration=10.0, acceleration=0.0, turning=0.0),
+        Mode(name="rest", duration=RESTING, acceleration=0.0, turning=0.0),
         Mode(name="cruise", duration=3.0, acceleration=0.03, turning=0.05),
         # To turn at a constant speed is to accelerate sideways.
         Mode(name="turn", duration=3.0, acceleration=0.35, turning=0.10),

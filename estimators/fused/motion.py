@@ -25,6 +25,11 @@ CREEP: Final = np.square([1e-4, 1e-4, 1e-4])
 """What a robot moves beyond what its speeds say, also at rest: growth of the variance of x, y, yaw [m^2/s, rad^2/s]."""
 
 
+RESTING: Final = 30.0
+"""How long a robot stands on average [s]. That it may start to drive at any moment widens what is stated of one that
+stands; half a minute is what robots wait between tasks, and no figure of robots that drive depends on it."""
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Mode:
     """A way of driving.

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from estimators.fused.motion import BIASES, Mode
+from estimators.fused.motion import BIASES, RESTING, Mode
 from estimators.poses import Array
 
 SLIP: Final = 0.005
@@ -28,7 +28,7 @@ class Unicycle:
     speed_sigmas: tuple[float, ...] = (0.7, 3.0)
     # Heading and way are known so differently well that a change of the one must not need one of the other to be seen.
     modes: tuple[Mode, ...] = (
-        Mode(name="rest", duration=10.0, acceleration=0.0, turning=0.0),
+        Mode(name="rest", duration=RESTING, acceleration=0.0, turning=0.0),
         Mode(name="cruise", duration=3.0, acceleration=0.03, turning=0.05),
         Mode(name="start or stop", duration=0.3, acceleration=1.0, turning=0.05),
         Mode(name="bend", duration=1.0, acceleration=0.03, turning=0.5),
