@@ -15,6 +15,8 @@ OBLIQUE = 0.6
 """How fast edges move on average beside one nearest to the camera: seen over the front half of a circle 2/pi."""
 UNTURNED = 1e-9
 """How far a camera at rest may seem to turn [rad]."""
+UNMOVED = 1e-6
+"""How far an edge between the same two samples may seem to move [px]: its place is computed, and rounded."""
 SAME_PIXELS = 0.5
 """How far the view moves until its pixels say something else [px]: with several edges in the picture some edge passes
 a pixel's middle well before that."""
@@ -226,7 +228,11 @@ class MarkerMeasurement:
         """
         if not (self.quantised and earlier.quantised) or abs(self.direction - earlier.direction) > UNTURNED:
             return None
-        return bool(np.array_equal(self.samples, earlier.samples))
+        moved = (
+            len(self.samples) != len(earlier.samples)
+            or np.abs(self.samples - earlier.samples).max() > UNMOVED
+        )
+        return not moved
 
     def steadied(self, earlier: MarkerMeasurement, covariance: Array) -> MarkerMeasurement:
         """The same with what frames of one view must have in common to a filter.

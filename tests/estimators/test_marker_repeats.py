@@ -68,6 +68,12 @@ def test_pictures_that_come_again_are_recognised(sampled):
     assert dataclasses.replace(sampled, period=2 * math.pi).round_of(FIFTH) == 1
 
 
+def test_rounding_of_a_computed_edge_is_no_edge_that_has_moved(sampled):
+    for moved, same in ((1e-12, True), (0.25, False)):
+        assert dataclasses.replace(sampled, samples=sampled.samples + moved).same_samples(sampled) is same
+    assert dataclasses.replace(sampled, samples=np.arange(8.0)).same_samples(sampled) is False
+
+
 def test_their_mean_lasts_until_they_have_moved_on_by_half_a_pixel(sampled):
     still = np.zeros(3)
     turned = FIFTH + np.array([0.0, 0.2, 1.0]) * SAME_PIXELS / (5 * sampled.pixels[1])
