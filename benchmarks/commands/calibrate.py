@@ -40,8 +40,8 @@ def calibrate(
     no_figures: NoFiguresOption = False,
 ) -> None:
     """Calibrate LRF, camera, clocks and target from the known walls and the moving target of a recording."""
-    from benchmarks.calibration import calibrate as calibrate_recording
-    from benchmarks.calibration import calibrate_command, quantity_table, report, residual_table
+    from benchmarks.calibration.of_recording import calibrate as calibrate_recording
+    from benchmarks.calibration.of_recording import calibrate_command, quantity_table, report, residual_table
     from benchmarks.recording.sources import LawOptions, open_source
 
     if not no_figures:

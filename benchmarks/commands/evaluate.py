@@ -22,10 +22,10 @@ from benchmarks.commands.options import (
     require_report_extra,
     set_values,
 )
-from benchmarks.engines import Engine
 from benchmarks.output import check_writable, staged
 from benchmarks.policies.named import SCRIPTED
 from benchmarks.policies.surroundings import ESTIMATES, TASKS
+from benchmarks.sweeps.engines import Engine
 
 QUICK_EPISODES = 10
 """Of each policy in a quick evaluation."""

@@ -9,8 +9,8 @@ from typing import Annotated, Any
 
 import typer
 
-from benchmarks.engines import ENGINES
 from benchmarks.recording.recording import Recording
+from benchmarks.sweeps.engines import ENGINES
 from estimators.errors import ConfigError, MissingExtraError
 from estimators.protocol import METHODS
 from gt_env.config import EnvConfig, believing, load_config, parse_override

@@ -20,9 +20,9 @@ from benchmarks.commands.options import (
     SetOption,
     require_report_extra,
 )
-from benchmarks.drives import DRIVES
+from benchmarks.driving.drives import DRIVES
+from benchmarks.driving.paths import PATHS
 from benchmarks.output import staged
-from benchmarks.paths import PATHS
 from benchmarks.scoring.live import PATHS_SCORED
 from benchmarks.scoring.request import Request
 from benchmarks.trajectory.alignment import ALIGNMENTS
@@ -118,9 +118,9 @@ def score(
     no_figures: NoFiguresOption = False,
 ) -> None:
     """Score localizers against the ground truth, and say where the reference is not good enough."""
-    from benchmarks.engines import Engine
     from benchmarks.scoring.carry_out import carry_out
     from benchmarks.scoring.write import offset_lines, write_page
+    from benchmarks.sweeps.engines import Engine
 
     if not no_figures:
         require_report_extra()

@@ -25,9 +25,9 @@ from benchmarks.commands.options import (
     require_one_of,
     require_report_extra,
 )
-from benchmarks.engines import Engine
 from benchmarks.hindsight import WATCHED
 from benchmarks.output import check_writable, staged
+from benchmarks.sweeps.engines import Engine
 
 MethodOption = Annotated[
     list[str] | None,
@@ -76,14 +76,14 @@ def validate(
     only: OnlyOption = None,
 ) -> None:
     """Repeat the thesis's validation beside its published numbers, and go beyond it: limits, honesty, other methods."""
-    from benchmarks.cameras import plan_cameras, run_cameras
     from benchmarks.report.scores import score_validation
     from benchmarks.report.setup import describe, validate_command
     from benchmarks.report.write import Outcome, write_numbers, write_page
-    from benchmarks.robots import plan_robots, run_robots
     from benchmarks.rollout import watched_arena
-    from benchmarks.rooms import plan_rooms, run_rooms
-    from benchmarks.validation import plan_validation, run_validation
+    from benchmarks.validation.cameras import plan_cameras, run_cameras
+    from benchmarks.validation.plan import plan_validation, run_validation
+    from benchmarks.validation.robots import plan_robots, run_robots
+    from benchmarks.validation.rooms import plan_rooms, run_rooms
 
     parts = _parts(only, dict(zip(PARTS, (cameras, stress, rooms, robots), strict=True)))
     methods, settings = _methods(method), configuration(config, overrides, calibration)

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from rich.console import Console
 
-from benchmarks.engines import Engine
 from benchmarks.evaluation.candidates import Candidate, meet
 from benchmarks.evaluation.episode import LINGER, Episode, run_episode
-from benchmarks.parallel import run_side_by_side
 from benchmarks.policies.surroundings import check_task
+from benchmarks.sweeps.engines import Engine
+from benchmarks.sweeps.parallel import run_side_by_side
 from estimators.errors import ConfigError
 from gt_env.config import ConfigLike, EnvConfig, load_config
 

@@ -9,7 +9,7 @@ from typing import Any, Final
 import gymnasium as gym
 import numpy as np
 
-from benchmarks.driving import actions, script, start_pose
+from benchmarks.driving.segments import actions, script, start_pose
 from benchmarks.experiments.run import Run, standing
 from benchmarks.experiments.scenes import Scene, scene_at
 from benchmarks.experiments.static import static_points

@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from benchmarks.driving.following import Follower
+from benchmarks.driving.following_freely import FreeFollower
 from benchmarks.experiments.run import settling
-from benchmarks.following import Follower
-from benchmarks.following_freely import FreeFollower
 from benchmarks.rollout import Rollout, rollout, watched_arena
 from estimators.errors import GtEnvError
 from estimators.poses import Array, Pose2

@@ -6,17 +6,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Final
 
-from benchmarks.drives import DRIVES
-from benchmarks.driving import SPEED, Segment, actions, ideal_poses, script, start_pose
+from benchmarks.driving.drives import DRIVES
+from benchmarks.driving.paths import ACCELERATION, path_in_room, path_script, path_start
+from benchmarks.driving.segments import SPEED, Segment, actions, ideal_poses, script, start_pose
 from benchmarks.experiments.random_poses import dithered
 from benchmarks.experiments.run import Run
-from benchmarks.paths import ACCELERATION, path_in_room, path_script, path_start
 from estimators.poses import Pose2
 from gt_env.config import EnvConfig, load_config
 
 EIGHT: Final = "figure-of-eight"
 EIGHT_PATH: Final = "wide-eight"
-"""Of `benchmarks.paths`: as far as the room allows, as validation looks at all of it."""
+"""Of `benchmarks.driving.paths`: as far as the room allows, as validation looks at all of it."""
 SWEPT_SPIN: Final = "spin-dithered"
 """Turning on the spot before a camera that sweeps a little."""
 TRAVELS: Final = ("path", "tour", EIGHT)

@@ -8,9 +8,9 @@ from typing import Final
 
 import numpy as np
 
-from benchmarks.driving import SPEED, TURN_RATE, Segment, actions, ideal_poses
+from benchmarks.driving.segments import SPEED, TURN_RATE, Segment, actions, ideal_poses
+from benchmarks.driving.steerable import turning_radius
 from benchmarks.experiments.run import Run, standing
-from benchmarks.steerable import turning_radius
 from estimators.errors import ConfigError
 from estimators.poses import Pose2
 from estimators.room import Room

@@ -9,11 +9,11 @@ from typing import Any, Final
 
 import numpy as np
 
-from benchmarks.drives import DRIVES, Drive
-from benchmarks.driving import SPEED, check_room, ideal_poses, segments_of, start_of
+from benchmarks.driving.drives import DRIVES, Drive
+from benchmarks.driving.paths import ACCELERATION, path_in_room, timed_poses
+from benchmarks.driving.segments import SPEED, check_room, ideal_poses, segments_of, start_of
 from benchmarks.experiments.course import Course
 from benchmarks.experiments.moving import EIGHT_PATH
-from benchmarks.paths import ACCELERATION, path_in_room, timed_poses
 from estimators.calibration import DEG
 from estimators.errors import ConfigError
 from estimators.poses import Array

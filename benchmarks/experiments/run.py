@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from benchmarks.following import Follower
+from benchmarks.driving.following import Follower
 from benchmarks.rollout import Rollout, rollout, watched_arena
 from estimators.poses import Array, Pose2
 from gt_env.config import EnvConfig

@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from benchmarks.experiments.static import static_points
-from benchmarks.limits import GOLDEN_RATIO, RADIAL_PATCH, OneScanLimit, one_scan_limit
+from benchmarks.validation.limits import GOLDEN_RATIO, RADIAL_PATCH, OneScanLimit, one_scan_limit
 from estimators.messages import LaserScan
 from estimators.poses import Array
 from estimators.scan_model import PositionFix, ScanModel

@@ -8,9 +8,9 @@ from typing import Any
 import gymnasium as gym
 import numpy as np
 
-from benchmarks.driving import into_room
-from benchmarks.published import TEST_POINTS
+from benchmarks.driving.segments import into_room
 from benchmarks.rollout import watched_arena
+from benchmarks.validation.published import TEST_POINTS
 from estimators.calibration import DEG, Calibration
 from estimators.messages import STATION_LRF, ImageFrame, LaserScan
 from estimators.poses import Pose2

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from benchmarks.driving import into_room
+from benchmarks.driving.segments import into_room
 from benchmarks.experiments.run import Run, standing
-from benchmarks.published import TEST_POINTS
+from benchmarks.validation.published import TEST_POINTS
 from estimators.errors import ConfigError
 from estimators.poses import Pose2
 from gt_env.config import EnvConfig

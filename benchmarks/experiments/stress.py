@@ -7,11 +7,11 @@ from typing import Final
 
 import numpy as np
 
-from benchmarks.driving import ideal_poses, script, start_pose
+from benchmarks.driving.paths import timed_poses
+from benchmarks.driving.segments import ideal_poses, script, start_pose
+from benchmarks.driving.steerable import turning_radius
 from benchmarks.experiments.course import Course
 from benchmarks.experiments.moving import EIGHT_PATH
-from benchmarks.paths import timed_poses
-from benchmarks.steerable import turning_radius
 from estimators.poses import Array
 from gt_env.config import EnvConfig, load_config
 

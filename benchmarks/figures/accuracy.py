@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from benchmarks.figures.style import PUBLISHED, WIDTH, method_color, new_figure
 from benchmarks.metrics import Score
-from benchmarks.published import DATA_SHEETS, THESIS
+from benchmarks.validation.published import DATA_SHEETS, THESIS
 from estimators.calibration import DEG
 from estimators.poses import Array
 

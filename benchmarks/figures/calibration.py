@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from benchmarks.calibration import SHOWN, CalibrationRun
+from benchmarks.calibration.of_recording import SHOWN, CalibrationRun
 from benchmarks.figures.style import ESTIMATED, REAL, WIDTH, legend_above, new_figure
 from estimators.calibration import DEG
 from estimators.poses import Array

@@ -9,10 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
-from benchmarks.cameras import FAR, CameraScore
 from benchmarks.experiments.cameras import CAMERAS
 from benchmarks.experiments.scenes import Scene
 from benchmarks.figures.style import WIDTH, new_figure
+from benchmarks.validation.cameras import FAR, CameraScore
 from estimators.calibration import DEG
 from estimators.messages import ImageFrame
 from estimators.thesis.heading import heading, heading_in_image

@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from benchmarks.consistency import LEVELS, PARTS, Consistency, Whiteness
 from benchmarks.figures.style import PUBLISHED, WIDTH, new_figure
+from benchmarks.validation.consistency import LEVELS, PARTS, Consistency, Whiteness
 
 Judged = Mapping[str, Mapping[str, Consistency]]
 """By situation and then by method."""

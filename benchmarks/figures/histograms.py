@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from benchmarks.figures.style import PUBLISHED, REAL, WIDTH, method_color, new_figure
-from benchmarks.published import PublishedPoint
 from benchmarks.rollout import Track
+from benchmarks.validation.published import PublishedPoint
 from estimators.calibration import DEG
 from estimators.poses import Array, Pose2, wrap_angle
 

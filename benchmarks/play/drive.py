@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from benchmarks.driving import SPEED, TURN_RATE
+from benchmarks.driving.segments import SPEED, TURN_RATE
 from estimators.poses import Array
 from gt_env.config.sections import RobotConfig
 

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.drives import DRIVES
-from benchmarks.driving import actions, script
+from benchmarks.driving.drives import DRIVES
+from benchmarks.driving.segments import actions, script
 from benchmarks.policies.policy import ScriptedPolicy
 from estimators.poses import Array
 
@@ -39,7 +39,7 @@ class TourPolicy(ScriptedPolicy):
 
     Args:
         env: Whose robot drives.
-        drive: One of `benchmarks.drives.DRIVES`.
+        drive: One of `benchmarks.driving.drives.DRIVES`.
     """
 
     def __init__(self, env: Any, drive: str) -> None:

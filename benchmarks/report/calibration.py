@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from benchmarks.calibration import CalibrationRun
+from benchmarks.calibration.of_recording import CalibrationRun
 from benchmarks.figures.calibration import quantity_figure, residual_figure
 from benchmarks.figures.style import paper, save_png
 from benchmarks.report.html import write_html

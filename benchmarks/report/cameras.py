@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from benchmarks.cameras import CameraScore, CameraScores
 from benchmarks.experiments.cameras import CAMERAS
 from benchmarks.report.scores import DEGREES, MM, times
 from benchmarks.report.tables import Table, angle, number
+from benchmarks.validation.cameras import CameraScore, CameraScores
 
 WHY = (
     "The positions are the same before every camera: they come from the LRF alone. The headings differ by"

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from benchmarks.consistency import Consistency
 from benchmarks.metrics import Score
 from benchmarks.report.scores import MM, times
 from benchmarks.report.tables import NONE, angle, number
+from benchmarks.validation.consistency import Consistency
 
 SCORED = ("RMSE [mm]", "max [mm]", "heading [deg]", "99 % [deg]", "valid [%]", "NEES")
 """Heads of the columns that `_cells` fills."""

@@ -6,9 +6,17 @@ import math
 from dataclasses import asdict
 from typing import Any
 
-from benchmarks.consistency import CONFIDENCE, LEVELS, PARTS, Consistency, Coverage, Nees, Whiteness
 from benchmarks.report.scores import Scores
 from benchmarks.report.tables import NONE, Table, number
+from benchmarks.validation.consistency import (
+    CONFIDENCE,
+    LEVELS,
+    PARTS,
+    Consistency,
+    Coverage,
+    Nees,
+    Whiteness,
+)
 
 NOTE = (
     "NEES: normalised estimation error squared, mean over the runs, one sample of each at a time drawn at random. "

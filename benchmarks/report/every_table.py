@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from benchmarks.cameras import CameraScores
 from benchmarks.report.cameras import camera_tables
 from benchmarks.report.consistency import consistency_tables
 from benchmarks.report.goal import Goal, goal_table
@@ -12,8 +11,9 @@ from benchmarks.report.scores import Scores
 from benchmarks.report.stress import stress_table
 from benchmarks.report.summary_table import blind_table, drive_table, limit_table, summary_table
 from benchmarks.report.tables import Table, all_tables
-from benchmarks.robots import RobotScores
-from benchmarks.rooms import RoomScores
+from benchmarks.validation.cameras import CameraScores
+from benchmarks.validation.robots import RobotScores
+from benchmarks.validation.rooms import RoomScores
 
 
 def every_table(

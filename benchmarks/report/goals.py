@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import inf
 
-from benchmarks.consistency import PARTS, Consistency
-from benchmarks.goals import (
+from benchmarks.metrics import root_mean_square
+from benchmarks.report.goal import Goal, at_most, degrees, millimetres, valid_share
+from benchmarks.report.scores import Scores, least_valid
+from benchmarks.validation.consistency import PARTS, Consistency
+from benchmarks.validation.goals import (
     ALONE,
     COVERED,
     ELSEWHERE,
@@ -18,11 +21,8 @@ from benchmarks.goals import (
     Targets,
     targeted_preset,
 )  # fmt: skip
-from benchmarks.metrics import root_mean_square
-from benchmarks.report.goal import Goal, at_most, degrees, millimetres, valid_share
-from benchmarks.report.scores import Scores, least_valid
-from benchmarks.rooms import RoomScores
-from benchmarks.validation import DITHERED, STILL
+from benchmarks.validation.plan import DITHERED, STILL
+from benchmarks.validation.rooms import RoomScores
 from gt_env.config import EnvConfig
 
 ONLINE, AFTER = "fused", "smooth"

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from benchmarks.published import thesis_average_mae
 from benchmarks.report.gallery.plate import Plate
 from benchmarks.report.html import write_html
 from benchmarks.report.scores import MM, TO_ERROR_UNITS, Scores, scaled, times
 from benchmarks.report.tables import Table, angle, number
+from benchmarks.validation.published import thesis_average_mae
 
 SECTIONS = {
     "station": "What the station measures",

@@ -11,7 +11,7 @@ from benchmarks.report.consistency import consistency_json
 from benchmarks.report.goal import Goal, at_most
 from benchmarks.report.summary import score_json
 from benchmarks.report.tables import NONE, Table, number
-from benchmarks.robots import RobotScores
+from benchmarks.validation.robots import RobotScores
 
 COMPARED: Final = {"skid_steer": 1.3, "ackermann": 1.3}
 """How much larger the error of the position may be than with the default robot."""

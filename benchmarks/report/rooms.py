@@ -10,7 +10,7 @@ from benchmarks.report.consistency import consistency_json
 from benchmarks.report.scores import MM, ScanScore, times
 from benchmarks.report.summary import limit_json, score_json
 from benchmarks.report.tables import NONE, Table, number
-from benchmarks.rooms import RoomScores
+from benchmarks.validation.rooms import RoomScores
 
 SAME = (
     "The same code and constants everywhere: the estimators know room, target and rangefinder, nothing else. "

@@ -8,12 +8,10 @@ from typing import Final
 
 import numpy as np
 
-from benchmarks.consistency import Consistency, Whiteness, consistency, whiteness
 from benchmarks.experiments.moving import BLIND_METHODS, TRAVELS
 from benchmarks.experiments.scans import ScanFixes
 from benchmarks.experiments.stress import COMPARED
 from benchmarks.hindsight import HINDSIGHT, KINDS
-from benchmarks.limits import OneScanLimit
 from benchmarks.metrics import (
     STARTED,
     Score,
@@ -23,9 +21,11 @@ from benchmarks.metrics import (
     score,
     spread,
 )
-from benchmarks.pairs import More, more
 from benchmarks.rollout import Rollout, joined_tracks, picked
-from benchmarks.validation import Validation
+from benchmarks.validation.consistency import Consistency, Whiteness, consistency, whiteness
+from benchmarks.validation.limits import OneScanLimit
+from benchmarks.validation.pairs import More, more
+from benchmarks.validation.plan import Validation
 from estimators.poses import Array
 
 MM, DEGREES = 1e3, 57.29577951308232

@@ -9,7 +9,7 @@ from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from benchmarks.validation import Plan
+from benchmarks.validation.plan import Plan
 
 PACKAGES = ("gt-env", "numpy", "opencv-python-headless", "pybullet", "gymnasium")
 """What the numbers may depend on."""

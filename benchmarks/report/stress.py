@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from benchmarks.experiments.stress import SECONDS
-from benchmarks.pairs import More
 from benchmarks.report.cells import SCORED, honest_cells, honest_note, score_cells
 from benchmarks.report.scores import Scores
 from benchmarks.report.tables import NONE, Table, named, number
+from benchmarks.validation.pairs import More
 
 HARD = (
     "Robots are steered along their way by somebody who sees them. usual: path, tour and figure of eight; swept: the "

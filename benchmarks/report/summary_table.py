@@ -9,7 +9,7 @@ from benchmarks.metrics import Score, root_mean_square
 from benchmarks.report.cells import SCORED, millimetres, score_cells
 from benchmarks.report.scores import MM, Scores, least_valid, times
 from benchmarks.report.tables import NONE, Table, angle, named, number
-from benchmarks.validation import DITHERED, STILL
+from benchmarks.validation.plan import DITHERED, STILL
 
 
 def summary_table(scores: Scores) -> Table:

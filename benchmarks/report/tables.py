@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from benchmarks.published import (
+from benchmarks.report.scores import DEGREES, MM, TO_ERROR_UNITS, TO_POSE_UNITS, Scores, Triple, scaled, times
+from benchmarks.validation.published import (
     DATA_SHEETS,
     THESIS,
     THESIS_MOVING,
     PublishedPoint,
     thesis_average_mae,
 )
-from benchmarks.report.scores import DEGREES, MM, TO_ERROR_UNITS, TO_POSE_UNITS, Scores, Triple, scaled, times
 from estimators.poses import wrap_angle
 
 NONE = "-"

@@ -8,8 +8,6 @@ from typing import Any
 
 from rich.console import Console
 
-from benchmarks.cameras import CameraScores
-from benchmarks.parallel import SweepError
 from benchmarks.report.cameras import cameras_json
 from benchmarks.report.every_table import every_table
 from benchmarks.report.goal import Goal
@@ -19,9 +17,11 @@ from benchmarks.report.rooms import rooms_json
 from benchmarks.report.scores import Scores
 from benchmarks.report.summary import report_json
 from benchmarks.report.tables import Table
-from benchmarks.robots import RobotScores
-from benchmarks.rooms import RoomScores
-from benchmarks.validation import Validation
+from benchmarks.sweeps.parallel import SweepError
+from benchmarks.validation.cameras import CameraScores
+from benchmarks.validation.plan import Validation
+from benchmarks.validation.robots import RobotScores
+from benchmarks.validation.rooms import RoomScores
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,8 +9,6 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 
-from benchmarks.engines import Engine
-from benchmarks.parallel import run_side_by_side
 from benchmarks.progress import tracked
 from benchmarks.scoring.judge import JudgedRun
 from benchmarks.scoring.live import score_live
@@ -18,6 +16,8 @@ from benchmarks.scoring.recorded import score_files, score_recording
 from benchmarks.scoring.request import Request
 from benchmarks.scoring.subjects import Subject
 from benchmarks.scoring.write import Result
+from benchmarks.sweeps.engines import Engine
+from benchmarks.sweeps.parallel import run_side_by_side
 from benchmarks.trajectory.csv_file import read_trajectory
 from estimators.errors import ConfigError
 from gt_env.config import EnvConfig

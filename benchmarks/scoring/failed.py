@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final
 
-from benchmarks.parallel import listed
 from benchmarks.scoring.summary import SubjectSummary
+from benchmarks.sweeps.parallel import listed
 from estimators.errors import GtEnvError
 
 NAMED: Final = 3

@@ -9,10 +9,10 @@ from typing import Any, Final
 import gymnasium as gym
 import numpy as np
 
-from benchmarks.drives import DRIVES
-from benchmarks.driving import ideal_poses, script, start_pose
-from benchmarks.following import Follower, check_followed
-from benchmarks.paths import CALM_SPEED, LONG_DRIVE, PATHS, timed_poses
+from benchmarks.driving.drives import DRIVES
+from benchmarks.driving.following import Follower, check_followed
+from benchmarks.driving.paths import CALM_SPEED, LONG_DRIVE, PATHS, timed_poses
+from benchmarks.driving.segments import ideal_poses, script, start_pose
 from benchmarks.recording.writer import RecordingWriter
 from benchmarks.rollout import ARENA
 from benchmarks.scoring.judge import TRUE_START, JudgedRun, Rules, called, judge

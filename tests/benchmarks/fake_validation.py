@@ -3,9 +3,9 @@
 import numpy as np
 
 from benchmarks.experiments.scans import ScanFixes
-from benchmarks.limits import OneScanLimit
 from benchmarks.rollout import Rollout, Track
-from benchmarks.validation import Validation, plan_validation
+from benchmarks.validation.limits import OneScanLimit
+from benchmarks.validation.plan import Validation, plan_validation
 from estimators.calibration import DEG
 from gt_env.config import load_config
 

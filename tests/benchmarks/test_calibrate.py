@@ -11,10 +11,10 @@ import pytest
 from typer.testing import CliRunner
 
 from benchmarks.__main__ import main
-from benchmarks.calibration import calibrate
+from benchmarks.calibration.of_recording import calibrate
 from benchmarks.cli import app
-from benchmarks.driving import actions
-from benchmarks.paths import path_script, path_start
+from benchmarks.driving.paths import path_script, path_start
+from benchmarks.driving.segments import actions
 from benchmarks.recording import MessageLog, Recording, RecordingWriter, read_recording
 from benchmarks.replay import replay
 from estimators import ConfigError, GroundTruthWrapper, LaserScan

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks import calibration_accuracy
-from benchmarks.calibration_accuracy import Accuracy, Answers, sizes, stated
-from benchmarks.spoilt_station import planted
+from benchmarks.calibration import accuracy as calibration_accuracy
+from benchmarks.calibration.accuracy import Accuracy, Answers, sizes, stated
+from benchmarks.calibration.spoilt_station import planted
 from gt_env.config import load_config
 
 

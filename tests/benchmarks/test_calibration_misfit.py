@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from benchmarks.calibration import CalibrationRun
+from benchmarks.calibration.of_recording import CalibrationRun
 
 
 @pytest.mark.parametrize(

@@ -5,13 +5,13 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from benchmarks import cameras as work
-from benchmarks import validation
-from benchmarks.cameras import camera_score, plan_cameras, run_cameras
 from benchmarks.commands import validate as command
 from benchmarks.experiments.cameras import CAMERAS, Effort, camera_runs, watch
 from benchmarks.report.cameras import camera_tables, cameras_json
 from benchmarks.rollout import Track
+from benchmarks.validation import cameras as work
+from benchmarks.validation import plan as validation
+from benchmarks.validation.cameras import camera_score, plan_cameras, run_cameras
 from estimators.calibration import DEG
 from estimators.errors import ConfigError
 from gt_env.config import load_config

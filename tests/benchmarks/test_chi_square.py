@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from benchmarks.chi_square import cumulative, quantile
+from benchmarks.validation.chi_square import cumulative, quantile
 
 
 @pytest.mark.parametrize("k", [1, 2, 3, 8, 50, 150, 600])

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from benchmarks.consistency import LEVELS, bounds, consistency, whiteness
 from benchmarks.rollout import Rollout, Track
+from benchmarks.validation.consistency import LEVELS, bounds, consistency, whiteness
 
 COVARIANCE = np.array([[4e-4, 1e-4, 1e-4], [1e-4, 2e-4, 0.0], [1e-4, 0.0, 1e-3]])
 

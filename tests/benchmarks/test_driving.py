@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from benchmarks.drives import DRIVES
-from benchmarks.driving import (
+from benchmarks.driving.drives import DRIVES
+from benchmarks.driving.segments import (
     SPEED,
     TURN_RATE,
     actions,

@@ -15,10 +15,10 @@ import pytest
 from rich.console import Console
 from typer.testing import CliRunner
 
-from benchmarks import engines
 from benchmarks.cli import app
-from benchmarks.engines import ClusterError, Engine
-from benchmarks.parallel import SweepError, run_side_by_side
+from benchmarks.sweeps import engines
+from benchmarks.sweeps.engines import ClusterError, Engine
+from benchmarks.sweeps.parallel import SweepError, run_side_by_side
 from estimators.errors import ConfigError, MissingExtraError
 
 sys.path.insert(0, str(Path(__file__).parent))  # the cluster's processes get it from here

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from benchmarks.driving import SPEED, TURN_RATE
+from benchmarks.driving.segments import SPEED, TURN_RATE
 from benchmarks.experiments.course import ContactError, Course, follow
 from benchmarks.experiments.moving import EIGHT, moving_runs
 from benchmarks.experiments.random_poses import DRIVE_SECONDS, REST_SECONDS, dithered, drive_runs, rest_runs

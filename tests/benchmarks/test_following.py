@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from benchmarks.driving import ideal_poses, script, start_pose
-from benchmarks.following import Follower, check_followed
-from benchmarks.paths import PATHS, timed_poses
+from benchmarks.driving.following import Follower, check_followed
+from benchmarks.driving.paths import PATHS, timed_poses
+from benchmarks.driving.segments import ideal_poses, script, start_pose
 from estimators.errors import ConfigError
 from estimators.poses import Pose2
 from gt_env.config import load_config

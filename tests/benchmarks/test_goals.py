@@ -5,10 +5,10 @@ import json
 import pytest
 from fake_validation import fake_validation
 
-from benchmarks.goals import TARGETS, targeted_preset
 from benchmarks.report.goal import Goal, goal_table, goals_json
 from benchmarks.report.goals import reached_goals
 from benchmarks.report.scores import score_validation
+from benchmarks.validation.goals import TARGETS, targeted_preset
 from gt_env.config import load_config
 
 

@@ -7,7 +7,7 @@ import marker_picture as pictures
 import numpy as np
 import pytest
 
-from benchmarks.heading_limit import HIDDEN, Silhouettes, heading_limit
+from benchmarks.validation.heading_limit import HIDDEN, Silhouettes, heading_limit
 
 CALIBRATION = pictures.room_calibration()
 

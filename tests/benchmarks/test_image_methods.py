@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from benchmarks.image_methods import Reading, compared, summary
+from benchmarks.validation.image_methods import Reading, compared, summary
 from gt_env.config import load_config
 
 

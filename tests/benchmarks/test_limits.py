@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from benchmarks.limits import one_scan_limit
-from benchmarks.published import TEST_POINTS
+from benchmarks.validation.limits import one_scan_limit
+from benchmarks.validation.published import TEST_POINTS
 from estimators.calibration import DEG, Calibration, LrfCalibration
 from estimators.errors import ConfigError
 from estimators.room import Room

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from benchmarks.pairs import more
 from benchmarks.rollout import Track
+from benchmarks.validation.pairs import more
 
 N = 400
 

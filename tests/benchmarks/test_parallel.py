@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from benchmarks.parallel import StepCounter, SweepError, run_side_by_side
+from benchmarks.sweeps.parallel import StepCounter, SweepError, run_side_by_side
 
 sys.path.insert(0, str(Path(__file__).parent))  # joblib's processes get it from here
 from sweep_tasks import draw, ignores_ctrl_c, misbehave
@@ -77,7 +77,7 @@ SWEEP = """
 import io
 from rich.console import Console
 from benchmarks.interrupts import interrupts_raised
-from benchmarks.parallel import run_side_by_side
+from benchmarks.sweeps.parallel import run_side_by_side
 from sweep_tasks import misbehave
 console = Console(file=io.StringIO())
 with interrupts_raised():

@@ -10,7 +10,7 @@ from rich.console import Console
 
 from benchmarks.report.scores import score_validation
 from benchmarks.report.write import Outcome, write_numbers, write_page
-from benchmarks.validation import plan_validation, run_validation
+from benchmarks.validation.plan import plan_validation, run_validation
 from gt_env.config import load_config
 
 SETUP = {"command": "", "seed": 0, "samples": 1, "methods": METHODS, "versions": {}, "config": {}}
@@ -72,7 +72,9 @@ def test_a_table_of_a_robot_that_cannot_turn_on_the_spot_says_so(alone):
 
 
 def test_nothing_is_simulated_where_nothing_usual_was_asked_for(monkeypatch):
-    monkeypatch.setattr("benchmarks.parallel._outcomes", lambda *_: pytest.fail("something was simulated"))
+    monkeypatch.setattr(
+        "benchmarks.sweeps.parallel._outcomes", lambda *_: pytest.fail("something was simulated")
+    )
     config = load_config("narrow")
     plan = plan_validation(config, METHODS, seed=0, quick=True, usual=False)
     found = run_validation(plan, jobs=1, console=Console(quiet=True))

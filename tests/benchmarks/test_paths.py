@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from benchmarks.driving import actions, ideal_poses
-from benchmarks.paths import (
+from benchmarks.driving.paths import (
     CALM_SPEED,
     PATHS,
     ClosedPath,
@@ -17,6 +16,7 @@ from benchmarks.paths import (
     path_start,
     rounded_rectangle,
 )
+from benchmarks.driving.segments import actions, ideal_poses
 from benchmarks.rollout import rollout, watched_arena
 from estimators.errors import ConfigError
 from estimators.poses import wrap_angle

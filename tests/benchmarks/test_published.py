@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from benchmarks.published import TEST_POINTS, THESIS, thesis_average_mae
+from benchmarks.validation.published import TEST_POINTS, THESIS, thesis_average_mae
 
 
 def test_table_5_3_averages_to_what_the_text_states():

@@ -8,7 +8,7 @@ from benchmarks.report.setup import describe, validate_command
 from benchmarks.report.summary import report_json
 from benchmarks.report.tables import all_tables
 from benchmarks.rollout import Rollout, Track, joined
-from benchmarks.validation import Validation, plan_validation
+from benchmarks.validation.plan import Validation, plan_validation
 from estimators.calibration import DEG
 from gt_env.config import load_config
 

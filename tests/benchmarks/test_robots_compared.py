@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from rich.console import Console
 
+from benchmarks.driving.following_freely import FreeFollower
 from benchmarks.experiments.course import reach
 from benchmarks.experiments.robots import DEFAULT, FREELY, ROBOTS, SHIPPED, WAYS, Effort, robot_config
-from benchmarks.following_freely import FreeFollower
 from benchmarks.report.robots import robot_goals, robot_table, robots_json
 from benchmarks.report.terminal import rich_table
-from benchmarks.robots import plan_robots, run_robots
+from benchmarks.validation.robots import plan_robots, run_robots
 from estimators.errors import ConfigError
 from estimators.kinematics import Omni3
 from estimators.poses import Pose2
@@ -78,7 +78,7 @@ def test_one_that_turns_freely_comes_back_to_its_poses():
 
 def test_robots_come_out_as_numbers_a_table_and_targets(monkeypatch):
     pytest.importorskip("pybullet")
-    monkeypatch.setattr("benchmarks.robots.QUICK", Effort(repeats=1, longest=3.0))
+    monkeypatch.setattr("benchmarks.validation.robots.QUICK", Effort(repeats=1, longest=3.0))
     names = [DEFAULT, "ackermann", FREELY]
     plan = plan_robots(BLIND, ("lrf",), seed=4301, quick=True, robots=names)
     scores = run_robots(plan, jobs=1, console=Console(quiet=True))

@@ -8,7 +8,7 @@ from rich.console import Console
 
 from benchmarks.experiments.rooms import SETTINGS, Effort
 from benchmarks.report.rooms import room_tables, rooms_json
-from benchmarks.rooms import plan_rooms, run_rooms
+from benchmarks.validation.rooms import plan_rooms, run_rooms
 from gt_env.config import load_config
 
 BLIND = load_config("thesis", {"camera.enabled": False})
@@ -56,7 +56,7 @@ def test_one_setting_does_not_change_with_the_others():
 
 def test_scans_and_drives_elsewhere_come_out_as_numbers_and_tables(monkeypatch):
     pytest.importorskip("pybullet")
-    monkeypatch.setattr("benchmarks.rooms.QUICK", Effort(scans=50, drives=1))
+    monkeypatch.setattr("benchmarks.validation.rooms.QUICK", Effort(scans=50, drives=1))
     names = ["L-shaped", "LRF sick_lms101"]
     plan = plan_rooms(BLIND, ("lrf", "smooth-lrf"), seed=4201, quick=True, settings=names)
     scores = run_rooms(plan, jobs=1, console=Console(quiet=True))
@@ -75,7 +75,7 @@ def test_scans_and_drives_elsewhere_come_out_as_numbers_and_tables(monkeypatch):
 
 @pytest.mark.slow
 def test_one_scan_is_near_its_limit_wherever_the_target_stands(monkeypatch):
-    monkeypatch.setattr("benchmarks.rooms.QUICK", Effort(scans=1000, drives=0))
+    monkeypatch.setattr("benchmarks.validation.rooms.QUICK", Effort(scans=1000, drives=0))
     names = ["6 x 3 m", "station in a corner"]
     plan = plan_rooms(BLIND, (), seed=4202, quick=True, settings=names)
     scores = run_rooms(plan, jobs=1, console=Console(quiet=True))

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from benchmarks.calibration.spoilt_station import PLANTED, THINNER, driven, planted, save
 from benchmarks.recording import read_recording
-from benchmarks.spoilt_station import PLANTED, THINNER, driven, planted, save
 from estimators.self_calibration.quantities import Q, values_of
 from gt_env.config import load_config
 

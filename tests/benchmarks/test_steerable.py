@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from benchmarks.drives import DRIVES
-from benchmarks.driving import actions, ideal_poses, script, start_pose
+from benchmarks.driving.drives import DRIVES
+from benchmarks.driving.segments import actions, ideal_poses, script, start_pose
+from benchmarks.driving.steerable import steerable, turning_radius
 from benchmarks.experiments.moving import moving_runs
 from benchmarks.experiments.random_poses import drive_runs
 from benchmarks.experiments.run import simulate, standing
-from benchmarks.steerable import steerable, turning_radius
 from gt_env.config import load_config
 from gt_env.config.shape import kinematics
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from rich.console import Console
 
-from benchmarks.sweep import sweep
+from benchmarks.sweeps.sweep import sweep
 
 
 @dataclass(frozen=True)

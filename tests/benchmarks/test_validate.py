@@ -26,7 +26,7 @@ def refuse_to_simulate(monkeypatch):
     def simulated(*_, **__):
         pytest.fail("something was simulated")
 
-    monkeypatch.setattr("benchmarks.sweep.run_side_by_side", simulated)
+    monkeypatch.setattr("benchmarks.sweeps.sweep.run_side_by_side", simulated)
 
 
 def test_an_unknown_method_is_refused(tmp_path):

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-from benchmarks.cameras import CameraScores
 from benchmarks.experiments.scenes import Scene
 from benchmarks.figures.cameras import camera_figure, grey_figure
 from benchmarks.report.gallery.plate import Plate
+from benchmarks.validation.cameras import CameraScores
 
 CAPTIONS = {"tiny": "tiny", "fast": "fast", "fast-noise": "fast, 2 grey levels of noise"}
 

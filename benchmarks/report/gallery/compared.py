@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 
-from benchmarks.consistency import Consistency
 from benchmarks.figures.compared import Panel, compared_figure
 from benchmarks.figures.style import PUBLISHED, method_color
-from benchmarks.goals import ELSEWHERE
 from benchmarks.metrics import Score
 from benchmarks.report.gallery.plate import Plate
 from benchmarks.report.scores import DEGREES, MM, Scores, times
-from benchmarks.robots import RobotScores
-from benchmarks.rooms import RoomScores
+from benchmarks.validation.consistency import Consistency
+from benchmarks.validation.goals import ELSEWHERE
+from benchmarks.validation.robots import RobotScores
+from benchmarks.validation.rooms import RoomScores
 
 READ = (
     "RMSE of the position, mean absolute error of the heading, and NEES, one sample of each run; grey: between what "

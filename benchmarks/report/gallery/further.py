@@ -15,7 +15,7 @@ from benchmarks.figures.limits import LARGER, limit_figure
 from benchmarks.figures.style import method_color
 from benchmarks.report.gallery.plate import Plate
 from benchmarks.report.scores import Scores
-from benchmarks.validation import Validation
+from benchmarks.validation.plan import Validation
 
 
 def further_plates(validation: Validation, scores: Scores) -> Iterator[Plate]:

@@ -12,10 +12,10 @@ from benchmarks.figures.drives import map_figure, spin_figure, time_figure
 from benchmarks.figures.frame import frame_figure
 from benchmarks.figures.histograms import histogram_figure
 from benchmarks.figures.scans import array_figure, points_figure, scan_figure
-from benchmarks.published import THESIS
 from benchmarks.report.gallery.plate import Plate
 from benchmarks.report.scores import Scores
-from benchmarks.validation import Validation
+from benchmarks.validation.plan import Validation
+from benchmarks.validation.published import THESIS
 
 
 def thesis_plates(validation: Validation, scores: Scores, scenes: dict[str, Scene]) -> Iterator[Plate]:

@@ -1,6 +1,6 @@
 """The two ways of reading a frame, compared on the same frames: centroids of the markers, and the whole profile.
 
-python -m benchmarks.image_methods --seed 5 --frames 60
+python -m benchmarks.validation.image_methods --seed 5 --frames 60
 """
 
 from __future__ import annotations

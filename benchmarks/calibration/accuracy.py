@@ -12,12 +12,12 @@ import typer
 from numpy.typing import NDArray
 
 from benchmarks import metrics
+from benchmarks.calibration.spoilt_station import driven, recorded
 from benchmarks.experiments.moving import EIGHT_PATH
 from benchmarks.experiments.static import static_points
 from benchmarks.progress import tracked
 from benchmarks.recording import Recording
 from benchmarks.replay import replay
-from benchmarks.spoilt_station import driven, recorded
 from estimators.calibration import Calibration
 from estimators.messages import LaserScan
 from estimators.poses import Array, Pose2

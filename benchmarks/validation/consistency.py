@@ -17,9 +17,9 @@ from typing import Final
 
 import numpy as np
 
-from benchmarks.chi_square import quantile
 from benchmarks.metrics import errors, normalized_squares
 from benchmarks.rollout import Rollout, Track
+from benchmarks.validation.chi_square import quantile
 from estimators.poses import Array
 
 PARTS: Final = {"pose": slice(0, 3), "position": slice(0, 2), "heading": slice(2, 3)}

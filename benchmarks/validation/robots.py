@@ -8,16 +8,16 @@ from dataclasses import dataclass
 import numpy as np
 from rich.console import Console
 
-from benchmarks.consistency import Consistency
-from benchmarks.engines import Engine
 from benchmarks.experiments.course import Course
 from benchmarks.experiments.robots import DEFAULT, FULL, QUICK, ROBOTS, Effort, robot_courses
 from benchmarks.metrics import Score
-from benchmarks.parallel import SweepError
 from benchmarks.report.scores import honesty, together
 from benchmarks.rollout import Rollout
-from benchmarks.sweep import sweep
-from benchmarks.validation import Task, carry_out
+from benchmarks.sweeps.engines import Engine
+from benchmarks.sweeps.parallel import SweepError
+from benchmarks.sweeps.sweep import sweep
+from benchmarks.validation.consistency import Consistency
+from benchmarks.validation.plan import Task, carry_out
 from estimators.calibration import Motion
 from gt_env.config import EnvConfig
 

@@ -8,9 +8,9 @@ from typing import Any, Final
 import gymnasium as gym
 import numpy as np
 
-from benchmarks.drives import DRIVES
-from benchmarks.driving import SPEED, actions, script, start_pose
-from benchmarks.paths import path_script, path_start
+from benchmarks.driving.drives import DRIVES
+from benchmarks.driving.paths import path_script, path_start
+from benchmarks.driving.segments import SPEED, actions, script, start_pose
 from benchmarks.recording import MessageLog, Recording, RecordingWriter
 from benchmarks.rollout import ARENA
 from estimators.poses import Array, Pose2

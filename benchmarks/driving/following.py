@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from benchmarks.driving import check_room
+from benchmarks.driving.segments import check_room
 from benchmarks.policies.twist import TwistDrive
 from estimators.errors import ConfigError
 from estimators.poses import Array, wrap_angle

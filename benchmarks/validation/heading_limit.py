@@ -5,7 +5,7 @@ picture says between which two samples each edge lies, and nothing else: all pos
 likely, and the best estimate is the middle of them. What it then errs on average is computed here, over poses, headings
 and places of the pixel grid, for exact pictures of the cylinder and its markers.
 
-python -m benchmarks.heading_limit --config thesis --seed 0
+python -m benchmarks.validation.heading_limit --config thesis --seed 0
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from benchmarks.published import SAMPLES
+from benchmarks.validation.published import SAMPLES
 
 
 @dataclass(frozen=True, kw_only=True)

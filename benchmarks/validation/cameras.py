@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from rich.console import Console
 
-from benchmarks.engines import Engine
 from benchmarks.experiments.cameras import CAMERAS, FULL, QUICK, Effort, Watched, camera_runs, watch
 from benchmarks.experiments.run import Run
 from benchmarks.metrics import Score, errors, score
-from benchmarks.parallel import SweepError
 from benchmarks.rollout import Track, joined
-from benchmarks.sweep import sweep
+from benchmarks.sweeps.engines import Engine
+from benchmarks.sweeps.parallel import SweepError
+from benchmarks.sweeps.sweep import sweep
 from estimators.calibration import DEG
 from estimators.poses import Array
 from gt_env.config import EnvConfig

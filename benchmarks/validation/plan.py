@@ -8,9 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from rich.console import Console
 
-from benchmarks.drives import DRIVES
-from benchmarks.effort import FULL, QUICK, Effort
-from benchmarks.engines import Engine
+from benchmarks.driving.drives import DRIVES
 from benchmarks.experiments.course import Course, follow
 from benchmarks.experiments.moving import FURTHER, blind_runs, moving_runs
 from benchmarks.experiments.random_poses import dithered, drive_runs, rest_runs
@@ -18,9 +16,11 @@ from benchmarks.experiments.run import Run, simulate
 from benchmarks.experiments.scans import ScanFixes, ScanRun, measure_scans, scan_runs
 from benchmarks.experiments.static import static_runs
 from benchmarks.experiments.stress import stress_runs
-from benchmarks.parallel import SweepError
 from benchmarks.rollout import Rollout, joined
-from benchmarks.sweep import sweep
+from benchmarks.sweeps.engines import Engine
+from benchmarks.sweeps.parallel import SweepError
+from benchmarks.sweeps.sweep import sweep
+from benchmarks.validation.effort import FULL, QUICK, Effort
 from estimators.errors import ConfigError
 from gt_env.config import EnvConfig
 

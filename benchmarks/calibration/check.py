@@ -1,6 +1,6 @@
 """What a calibration is worth: errors planted, a minute driven, calibrated, and what is then measured elsewhere.
 
-    python -m benchmarks.calibration_check --config narrow --seed 61 --count 5
+    python -m benchmarks.calibration.check --config narrow --seed 61 --count 5
 
 Beside the errors stands the Cramer-Rao bound of the same measurements, with and without the room's corners.
 """
@@ -15,13 +15,13 @@ from typing import Annotated, Final
 import numpy as np
 import typer
 
-from benchmarks.calibration import SHOWN
-from benchmarks.calibration_accuracy import compare
-from benchmarks.driving import SPEED
+from benchmarks.calibration.accuracy import compare
+from benchmarks.calibration.of_recording import SHOWN
+from benchmarks.calibration.spoilt_station import driven, planted, save
+from benchmarks.driving.segments import SPEED
 from benchmarks.experiments.moving import EIGHT_PATH
 from benchmarks.progress import tracked
 from benchmarks.recording import Recording
-from benchmarks.spoilt_station import driven, planted, save
 from estimators.calibration import Calibration
 from estimators.calibration_file import CalibrationFile
 from estimators.messages import ImageFrame, LaserScan

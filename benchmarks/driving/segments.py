@@ -10,8 +10,8 @@ import math
 
 import numpy as np
 
-from benchmarks.drives import DRIVES, STOP, Drive
-from benchmarks.steerable import steerable, turning_radius
+from benchmarks.driving.drives import DRIVES, STOP, Drive
+from benchmarks.driving.steerable import steerable, turning_radius
 from estimators.errors import ConfigError
 from estimators.kinematics import Differential
 from estimators.poses import Array, Pose2

@@ -22,10 +22,10 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
-from benchmarks.dask_runs import completed
-from benchmarks.engines import Engine, running
 from benchmarks.interrupts import deaf_to_ctrl_c
-from benchmarks.orphans import end_with
+from benchmarks.sweeps.dask_runs import completed
+from benchmarks.sweeps.engines import Engine, running
+from benchmarks.sweeps.orphans import end_with
 from estimators.errors import GtEnvError
 
 RETURNS: Final = {"loky": "generator_unordered", "ray": "list"}

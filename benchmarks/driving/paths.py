@@ -13,7 +13,7 @@ from typing import Final
 
 import numpy as np
 
-from benchmarks.driving import SPEED, Segment, check_drive, into_room, room_scale
+from benchmarks.driving.segments import SPEED, Segment, check_drive, into_room, room_scale
 from estimators.errors import ConfigError
 from estimators.poses import Array, Pose2, wrap_angle
 from gt_env.config import EnvConfig

@@ -8,8 +8,8 @@ from typing import Any, Generic, Protocol, TypeVar
 
 from rich.console import Console
 
-from benchmarks.engines import Engine
-from benchmarks.parallel import SweepError, run_side_by_side
+from benchmarks.sweeps.engines import Engine
+from benchmarks.sweeps.parallel import SweepError, run_side_by_side
 
 
 class Stepped(Protocol):
@@ -47,7 +47,7 @@ def sweep(
     console: Console,
     engine: Engine | None = None,
 ) -> Sweep[Result]:
-    """Carry out the runs of all groups side by side; see `benchmarks.parallel.run_side_by_side`.
+    """Carry out the runs of all groups side by side; see `benchmarks.sweeps.parallel.run_side_by_side`.
 
     Raises:
         ClusterError: If the engine's cluster does not answer.

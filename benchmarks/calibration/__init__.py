@@ -1,0 +1,1 @@
+"""Self-calibrations of recordings, and what they are worth."""

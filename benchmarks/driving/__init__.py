@@ -1,0 +1,1 @@
+"""How robots are driven: segments, paths and who follows them."""

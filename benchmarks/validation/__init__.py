@@ -1,0 +1,1 @@
+"""The thesis's validation, what goes beyond it, and what it is held against."""
