@@ -52,7 +52,8 @@ class Associator:
     def __init__(self, target: TargetGeometry, outline: TargetOutline) -> None:
         self._outline = outline
         swallowed = 1 - np.asarray(target.marker_colors, float) / 255
-        self._hues = swallowed / np.maximum(np.linalg.norm(swallowed, axis=1, keepdims=True), 1e-9)
+        # (3, K), a unit vector for each marker.
+        self._hues = (swallowed / np.maximum(np.linalg.norm(swallowed, axis=1, keepdims=True), 1e-9)).T
 
     def assign(self, runs: MarkerRuns, axis: float, distance: float) -> Association | None:
         """Try every rotation that puts some marker onto some patch; keep the one that explains most.
@@ -62,7 +63,7 @@ class Associator:
         """
         outline = self._outline
         turn = outline.turn_of(axis, runs.centers, distance)
-        off = (1 - runs.hues @ self._hues.T) / HUE_SPREAD  # (N, K)
+        off = (1 - runs.hues @ self._hues) / HUE_SPREAD  # (N, K)
         color = np.logaddexp(-off, math.log(FALSE_COLOR))
         candidates = (turn[:, None] - outline.angles - math.pi).ravel()
         # A patch far off the colour of its marker proposes nothing.

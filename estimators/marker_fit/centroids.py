@@ -22,7 +22,7 @@ def fit_centroids(problem: Problem, outline: TargetOutline, start: Array, steps:
     error = SAMPLED_ERROR if problem.quantised else math.hypot(CENTROID_ERROR, problem.noise)
     edges = outline_at(outline, pose)
     # A marker narrower than a pixel may lie anywhere in it; the pixel's middle is all that is seen.
-    narrow = np.clip(1.5 - edges.widths[problem.markers], 0.0, 1.0) * SAMPLED_ERROR
+    narrow = np.minimum(np.maximum(1.5 - edges.widths[problem.markers], 0.0), 1.0) * SAMPLED_ERROR
     weight = np.where(problem.touching, 0.0, 1 / np.hypot(error, narrow))
     for step in range(steps):
         edges = outline_at(outline, pose) if step else edges

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -99,7 +98,7 @@ class MarkerFit:
             return None
         ray = np.array([dx, dy]) / distance
         along = math.sqrt(float(ray @ covariance @ ray))
-        across = math.sqrt(max(float(np.trace(covariance)) - along**2, 0.0))
+        across = math.sqrt(max(float(covariance[0, 0] + covariance[1, 1]) - along**2, 0.0))
         direction = frame.pan + c.pan_offset
         axis = float(wrap_angle(math.atan2(dy, dx) - direction))
         aside = across / distance
@@ -112,8 +111,8 @@ class MarkerFit:
         solution, linear = rough, None
         if problem.quantised and self._method == "photometric":
             solution, linear = feasible_poses(problem, self._outline, rough), rough
-        found = self._measurement(frame.stamp, direction, problem, solution, false_colors, (axis, aside))
-        return found if linear is None else replace(found, linear=linear)
+        expected = axis, aside
+        return self._measurement(frame.stamp, direction, problem, solution, linear, false_colors, expected)
 
     def _see(
         self, frame: ImageFrame, axis: float, distance: tuple[float, float], sigma: float
@@ -173,6 +172,7 @@ class MarkerFit:
         direction: float,
         problem: Problem,
         solution: Solution,
+        linear: Solution | None,
         false_colors: int,
         expected: tuple[float, float],
     ) -> MarkerMeasurement:
@@ -214,6 +214,7 @@ class MarkerFit:
             pixels=pixels,
             samples=problem.samples,
             period=self._period,
+            linear=linear,
             repeated=repeated,
         )
 

@@ -228,11 +228,9 @@ class MarkerMeasurement:
         """
         if not (self.quantised and earlier.quantised) or abs(self.direction - earlier.direction) > UNTURNED:
             return None
-        moved = (
-            len(self.samples) != len(earlier.samples)
-            or np.abs(self.samples - earlier.samples).max() > UNMOVED
-        )
-        return not moved
+        if len(self.samples) != len(earlier.samples):
+            return False
+        return bool(np.abs(self.samples - earlier.samples).max() <= UNMOVED)
 
     def steadied(self, earlier: MarkerMeasurement, covariance: Array) -> MarkerMeasurement:
         """The same with what frames of one view must have in common to a filter.

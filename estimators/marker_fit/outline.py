@@ -120,7 +120,8 @@ class TargetOutline:
     def turn_of(self, axis: float, columns: Array, distance: float) -> Array:
         """Angle on the cylinder (N,) [rad], from the direction to the camera, of what columns (N,) show."""
         right = axis + np.arctan(columns / self.focal)
-        return np.asarray(np.arcsin(np.clip(distance / self.radius * np.sin(right), -1, 1)) - right)
+        aside = np.minimum(np.maximum(distance / self.radius * np.sin(right), -1.0), 1.0)
+        return np.asarray(np.arcsin(aside) - right)
 
     def centers(self, axis: float, relative: Array, distance: float) -> tuple[Array, Array]:
         """Columns (N, K) [px] of the markers' middles for yaws (N,), and cosines of their obliqueness."""

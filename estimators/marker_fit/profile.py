@@ -127,7 +127,7 @@ class ProfileReader:
                 return None
         columns = np.arange(first, last + 1) - u
         single = [part[len(part) // 2] for part in parts[:2]]
-        halves = np.stack([above, below])
+        halves = np.array([above, below])
         return Profile(
             columns, 0.5 * (above + below), halves, across, single[0], single[1], rows, cover, False
         )
@@ -175,6 +175,4 @@ class ProfileReader:
 
 def _mean_row(part: Image) -> Floats:
     """Mean colours (n, 3) over the rows of a part (rows, n, 3)."""
-    n = part.shape[1]
-    flat = np.ascontiguousarray(part).reshape(len(part), 3 * n)
-    return np.asarray(cv2.reduce(flat, 0, cv2.REDUCE_AVG, dtype=cv2.CV_32F), np.float32).reshape(n, 3)
+    return np.asarray(cv2.reduce(part, 0, cv2.REDUCE_AVG, dtype=cv2.CV_32F), np.float32).reshape(-1, 3)

@@ -58,7 +58,7 @@ def find_runs(profile: Profile, silhouette: Silhouette) -> MarkerRuns | None:
     on = np.zeros(len(strength) + 2, np.int8)
     on[1:-1] = strength > FAINTEST
     change = on[1:] - on[:-1]
-    first, last = np.flatnonzero(change > 0), np.flatnonzero(change < 0) - 1
+    first, last = (change > 0).nonzero()[0], (change < 0).nonzero()[0] - 1
     if not 0 < len(first) <= MOST_RUNS:
         return None
     columns = profile.columns[inside]
@@ -73,5 +73,5 @@ def find_runs(profile: Profile, silhouette: Silhouette) -> MarkerRuns | None:
         hues[i] = hue / math.sqrt(hue @ hue)
         if a > 0 and b < m - 1:
             mixed += bool(mixes[a - 1] or mixes[a]) + bool(mixes[b] or mixes[b + 1])
-    ends = np.stack([first, last], axis=1)
+    ends = np.array([first, last]).T
     return MarkerRuns(columns, absorbed, ends, centers, hues, mixed, (first == 0) | (last == m - 1))

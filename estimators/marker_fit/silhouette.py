@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import takewhile
 from typing import NamedTuple
 
 import numpy as np
@@ -60,15 +61,15 @@ def find_silhouette(profile: Profile, expected: float) -> Silhouette | None:
     brightest = float(light.max())
     if brightest < DARKEST or brightest - float(light.min()) > MOST_COLORFUL * brightest:
         return None
-    units = lights / np.sqrt(np.einsum("hj,hj->h", lights, lights)).clip(min=1.0)[:, None]
+    units = lights / np.maximum(np.sqrt(np.einsum("hj,hj->h", lights, lights)), 1.0)[:, None]
     along = np.einsum("hij,hj->hi", profile.halves, units)
     square = np.einsum("hij,hij->hi", profile.halves, profile.halves) - along * along
     other = (square > (COLORFUL * along) ** 2).any(axis=0)
-    left = np.flatnonzero(other[:start][::-1])
-    right = np.flatnonzero(other[start:])
-    if other[start] or not left.size or not right.size:
+    off = other.nonzero()[0]
+    beyond = int(off.searchsorted(start))
+    if not 0 < beyond < len(off) or off[beyond] == start:
         return None
-    first, last = start - int(left[0]), start + int(right[0]) - 1
+    first, last = int(off[beyond - 1]) + 1, int(off[beyond]) - 1
     if last - first < 2:
         return None
     a = _refine(plain, profile.plain_row, first, -1)
@@ -97,21 +98,30 @@ def _refine(plain: Floats, row: NDArray[np.generic], at: int, out: int) -> tuple
         Its place [columns from the first], whether it cuts a pixel, and the last index that is wholly target.
     """
     inner, outer = at - 2 * out, at + 3 * out
-    if min(inner, outer) < 0 or max(inner, outer) >= len(plain):
+    low, high = min(inner, outer), max(inner, outer)
+    if low < 0 or high >= len(plain):
         return None
-    white, behind = plain[inner].astype(float), plain[outer].astype(float)
-    unit = white / math.sqrt(float(white @ white))
-    step = behind - (behind @ unit) * unit
-    size = float(step @ step)
+    # So few pixels, from the target outwards, are faster told one by one.
+    *nearby, behind = plain[low : high + 1].tolist()[::out]
+    white = nearby[0]
+    brightness = _dot(white, white)
+    if brightness == 0.0:
+        return None
+    # The colour of the light is what shading keeps; across it, target counts 1 and background 0.
+    along = _dot(behind, white) / brightness
+    step = [b - along * w for b, w in zip(behind, white, strict=True)]
+    size = _dot(step, step)
     if size < LEAST_CONTRAST**2:
         return None
-    nearby = slice(inner, outer) if out > 0 else slice(outer + 1, inner + 1)
-    # The colour of the light is what shading keeps; across it, target counts 1 and background 0.
-    cover = np.clip(1 - (plain[nearby] @ step)[::out] / size, 0, 1)
+    cover = [1 - _dot(pixel, step) / size for pixel in nearby]
     # Whatever the edge is blurred over, the sum of the shares is its place.
-    place = inner + out * (float(cover.sum()) - 0.5)
-    whole = inner + out * max(int((cover > 1 - PURE).cumprod().sum()) - 1, 0)
+    place = inner + out * (sum(min(max(c, 0.0), 1.0) for c in cover) - 0.5)
+    pure = sum(1 for _ in takewhile(lambda c: c > 1 - PURE, cover))
+    whole = inner + out * max(pure - 1, 0)
     # Averaging rows also mixes colours, if the edge is not quite upright: one row tells how pixels are made.
-    single = 1 - (row[nearby] @ step) / size
-    mixed = int(bool(((single > PURE) & (single < 1 - PURE)).any()))
-    return place, mixed, whole
+    single = (1 - _dot(pixel, step) / size for pixel in row[low : high + 1].tolist()[::out][:-1])
+    return place, int(any(PURE < share < 1 - PURE for share in single)), whole
+
+
+def _dot(a: list[float], b: list[float]) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
