@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Final
@@ -14,6 +15,52 @@ AS_CTRL_C: Final = ("SIGTERM", "SIGHUP")
 """What would end the process at once, and leave behind what it had begun."""
 AGAIN: Final = 0.05
 """How long after an interrupt that Python could not raise it is sent again [s]."""
+
+
+HELD: Final = 30.0
+"""Longer than this no interrupt waits for what must not be torn apart: that hangs [s]."""
+
+
+class _Hold:
+    """What must not be torn apart just now.
+
+    Attributes:
+        since: From when on interrupts wait [s, monotonic]; None where none does.
+        late: Whether one waits.
+    """
+
+    def __init__(self) -> None:
+        self.since: float | None = None
+        self.late = False
+
+    def takes(self) -> bool:
+        """Whether an interrupt that comes now has to wait; it is then kept."""
+        held = self.since is not None and time.monotonic() - self.since < HELD
+        self.late = self.late or held
+        return held
+
+
+_hold = _Hold()
+
+
+@contextmanager
+def interrupts_held() -> Iterator[None]:
+    """Inside, an interrupt waits until the end, where it is raised, also in place of an error that it led to.
+
+    For what would be left in a state that nothing can be done with, as half an exchange with another process. Holds
+    only within `interrupts_raised`; one within another holds nothing more.
+    """
+    if _hold.since is not None or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    try:
+        _hold.since = time.monotonic()
+        yield
+    finally:
+        _hold.since = None
+        late, _hold.late = _hold.late, False
+        if late:
+            raise KeyboardInterrupt
 
 
 @contextmanager
@@ -30,13 +77,15 @@ def interrupts_raised() -> Iterator[None]:
     mine = os.getpid()
 
     def stop(number: int, _frame: Any) -> None:
-        if os.getpid() != mine:
+        if number != signal.SIGINT and os.getpid() != mine:
             signal.signal(number, signal.SIG_DFL)
             os.kill(os.getpid(), number)
-        raise KeyboardInterrupt
+        if not _hold.takes():
+            raise KeyboardInterrupt
 
     present = [getattr(signal, name) for name in AS_CTRL_C if hasattr(signal, name)]
-    before = {n: signal.signal(n, stop) for n in present if signal.getsignal(n) is signal.SIG_DFL}
+    usual = {signal.SIGINT: signal.default_int_handler} | dict.fromkeys(present, signal.SIG_DFL)
+    before = {n: signal.signal(n, stop) for n, answer in usual.items() if signal.getsignal(n) is answer}
     lost: list[threading.Timer] = []
     hook, sys.unraisablehook = sys.unraisablehook, _send_again(sys.unraisablehook, lost)
     try:

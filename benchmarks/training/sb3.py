@@ -6,7 +6,6 @@ import warnings
 from collections.abc import Callable
 from functools import partial
 from importlib.util import find_spec
-from multiprocessing import forkserver
 from pathlib import Path
 from typing import Any, Final
 
@@ -22,8 +21,8 @@ from stable_baselines3.common.logger import Logger
 from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
 from stable_baselines3.common.vec_env import DummyVecEnv, SubprocVecEnv, VecEnv, VecNormalize
 
-from benchmarks.interrupts import deaf_to_ctrl_c
 from benchmarks.output import staged
+from benchmarks.training.exchanges import start_server, whole
 from benchmarks.training.folder import BUFFER, EVALUATIONS, NORMALIZER, POLICY, Run
 from benchmarks.training.surroundings import training_env
 from estimators.errors import ConfigError
@@ -107,6 +106,7 @@ def train(run: Run, folder: Path, *, resume: bool, jobs: int, progress: Progress
 
     Raises:
         ConfigError: If the algorithm does not know an argument.
+        EnvironmentDiedError: If a process of the environments is gone.
     """
     settings = run.settings
     envs = _environments(run, settings.environments, run.seed, jobs)
@@ -208,13 +208,12 @@ def _environments(run: Run, count: int, seed: int, jobs: int) -> VecEnv:
     make: Callable[[], gym.Env[Any, Any]] = partial(training_env, run.task, run.config, run.settings)
     side_by_side = jobs > 1 and count > 1
     if side_by_side:
-        with deaf_to_ctrl_c():
-            forkserver.ensure_running()  # its children, too, are deaf
+        start_server()
     return make_vec_env(
         make,
         n_envs=count,
         seed=seed,
-        vec_env_cls=SubprocVecEnv if side_by_side else DummyVecEnv,
+        vec_env_cls=whole(SubprocVecEnv) if side_by_side else DummyVecEnv,
         vec_env_kwargs={"start_method": "forkserver"} if side_by_side else None,
         monitor_kwargs={"info_keywords": ("is_success",)},
     )
