@@ -19,6 +19,7 @@ SPARE_SIGMA = 0.15
 beside the target's centre."""
 SAMPLES = 15
 """Beams that a candidate is judged by, evenly over its width."""
+_ACROSS = np.linspace(-1.0, 1.0, SAMPLES)
 MOST_STARTS = 128
 """Beams that candidates are started from; more are thinned out evenly."""
 MOST_CANDIDATES = 4
@@ -79,7 +80,7 @@ def find_candidates(beams: Beams, radius: float, region: Region | None = None) -
         region: Where to look; None looks everywhere.
     """
     sigma = max(beams.sigma, SPARE_SIGMA * radius)
-    start = np.flatnonzero(beams.useful & (beams.ranges < beams.empty - NEAR_SIGMAS * beams.sigma))
+    start = (beams.useful & (beams.ranges < beams.empty - NEAR_SIGMAS * beams.sigma)).nonzero()[0]
     if region is not None and start.size:
         x, y = _on_beam(beams, start, beams.ranges[start] + radius)
         start = start[region.holds(x, y, beams.times[start])]
@@ -104,14 +105,14 @@ def _judge(beams: Beams, start: NDArray[np.intp], radius: float, sigma: float) -
     spacing = abs(beams.bearing_increment)
     distance = beams.ranges[start] + radius
     half_width = np.arcsin(radius / distance) / spacing
-    offset = np.rint(half_width[:, None] * np.linspace(-1.0, 1.0, SAMPLES)).astype(np.intp)
+    offset = np.rint(half_width[:, None] * _ACROSS).astype(np.intp)
     index = start[:, None] + offset
     if beams.wraps:
         index %= n
         seen = beams.useful[index]
     else:
         seen = (index >= 0) & (index < n)
-        np.clip(index, 0, n - 1, out=index)
+        index = np.minimum(np.maximum(index, 0), n - 1)
         seen &= beams.useful[index]
     across = distance[:, None] * np.sin(offset * spacing)
     inside = radius * radius - across * across

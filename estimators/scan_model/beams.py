@@ -69,6 +69,7 @@ class EmptyRoom:
         self._lrf = lrf
         self._sigma = max(lrf.noise_sigma, MIN_SIGMA)
         self._law: tuple[float, ...] = ()
+        self._last: tuple[LaserScan, Beams] | None = None
 
     def beams(self, scan: LaserScan) -> Beams:
         """A scan, set against the room.
@@ -76,6 +77,11 @@ class EmptyRoom:
         NaN, inf, zero, negative ranges and ranges below `range_min` tell nothing. "No return", which reads
         `range_max`, does tell something where the room's wall is nearer or farther.
         """
+        if self._last is None or self._last[0] is not scan:
+            self._last = scan, self._beams(scan)
+        return self._last[1]
+
+    def _beams(self, scan: LaserScan) -> Beams:
         n = len(scan.ranges)
         law = (n, scan.bearing_min, scan.bearing_increment, scan.range_max)
         if law != self._law:

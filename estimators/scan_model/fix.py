@@ -12,7 +12,7 @@ from estimators.poses import Array
 from estimators.scan_model.acquisition import SPARE_SIGMA, Candidate
 from estimators.scan_model.beams import NLL_CAP, Beams
 from estimators.scan_model.likelihood import Box, Frame, log_likelihood_ratio, target_nll
-from estimators.scan_model.posterior import moments
+from estimators.scan_model.posterior import Moments, moments
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -55,8 +55,43 @@ def fix_near(
         velocity: Of the target [m/s].
         log_area: Of the room, where the target may be [log m^2].
     """
+    peak = peak_near((candidate.x, candidate.y), candidate.time, scans, radius=radius, velocity=velocity)
+    if peak is None:
+        return None
+    frame, found = peak
+    position = frame.to_room(found.u, found.v)
+    nll = np.concatenate(
+        [target_nll(b, position, radius=radius, velocity=velocity, reference=candidate.time) for b in scans]
+    )
+    return PositionFix(
+        stamp=scans[-1].stamp + candidate.time,
+        position=position,
+        covariance=frame.turn_to_room(found.covariance),
+        log_odds=found.log_integral - log_area,
+        mean_nll=float(nll.mean()) if nll.size else NLL_CAP,
+        beams=nll.size,
+    )
+
+
+def peak_near(
+    place: tuple[float, float],
+    time: float,
+    scans: Sequence[Beams],
+    *,
+    radius: float,
+    velocity: tuple[float, float],
+) -> tuple[Frame, Moments] | None:
+    """The posterior's moments near a place, in a frame at the LRF that points there; None if it has no peak there.
+
+    Args:
+        place: x, y of the target at `time`, roughly [m].
+        time: After the stamp of each scan [s].
+        scans: As above, likewise the others.
+        radius: Of the target [m].
+        velocity: Of the target [m/s].
+    """
     beams = scans[0]
-    dx, dy = candidate.x - beams.origin[0], candidate.y - beams.origin[1]
+    dx, dy = place[0] - beams.origin[0], place[1] - beams.origin[1]
     distance = math.hypot(dx, dy)
     frame = Frame(origin=beams.origin, cos=dx / distance, sin=dy / distance)
 
@@ -71,7 +106,7 @@ def fix_near(
                 radius=radius,
                 sigma=max(scan.sigma, step),
                 velocity=velocity,
-                reference=candidate.time,
+                reference=time,
             )
         return total
 
@@ -83,17 +118,4 @@ def fix_near(
         half_v=max(2 * spacing, 2 * SPARE_SIGMA * radius),
     )
     found = moments(log_density, start)
-    if found is None:
-        return None
-    position = frame.to_room(found.u, found.v)
-    nll = np.concatenate(
-        [target_nll(b, position, radius=radius, velocity=velocity, reference=candidate.time) for b in scans]
-    )
-    return PositionFix(
-        stamp=scans[-1].stamp + candidate.time,
-        position=position,
-        covariance=frame.turn_to_room(found.covariance),
-        log_odds=found.log_integral - log_area,
-        mean_nll=float(nll.mean()) if nll.size else NLL_CAP,
-        beams=nll.size,
-    )
+    return None if found is None else (frame, found)

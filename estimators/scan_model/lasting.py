@@ -14,9 +14,8 @@ from typing import Final
 import numpy as np
 
 from estimators.poses import Array
-from estimators.scan_model.acquisition import Candidate
 from estimators.scan_model.beams import NLL_CAP, Beams
-from estimators.scan_model.fix import fix_near
+from estimators.scan_model.fix import peak_near
 
 SPREAD: Final = np.array(
     [
@@ -64,6 +63,9 @@ def _error(beams: Beams, axes: Array, place: Array, radius: float) -> float | No
     exact = np.where(meets, ranges, beams.empty)
     nll = np.minimum((exact - beams.empty) ** 2 * (0.5 / beams.sigma**2), NLL_CAP)
     without = replace(beams, ranges=exact, empty_nll=nll)
-    candidate = Candidate(x=float(place[0]), y=float(place[1]), time=0.0, score=0.0)
-    fix = fix_near(candidate, (without,), radius=radius, velocity=(0.0, 0.0), log_area=0.0)
-    return None if fix is None else float((fix.position - place) @ axes[:, 0])
+    near = float(place[0]), float(place[1])
+    peak = peak_near(near, 0.0, (without,), radius=radius, velocity=(0.0, 0.0))
+    if peak is None:
+        return None
+    frame, found = peak
+    return float((frame.to_room(found.u, found.v) - place) @ axes[:, 0])

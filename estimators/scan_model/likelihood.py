@@ -109,7 +109,7 @@ def log_likelihood_ratio(
         passes = np.abs(box.u * s - box.v * c + aside) < room_for
     else:
         passes = np.abs(box.u * s - box.v * c) < room_for
-    chosen = np.flatnonzero(passes & (box.u * c + box.v * s > 0) & beams.useful)
+    chosen = (passes & (box.u * c + box.v * s > 0) & beams.useful).nonzero()[0]
     if not chosen.size:
         return np.zeros(shape)
     c, s = c[chosen, None], s[chosen, None]
@@ -126,8 +126,8 @@ def log_likelihood_ratio(
     meets = chord > 0
     np.maximum(chord, 0.0, out=chord)
     np.sqrt(chord, out=chord)
-    error = along[:, :, None] + (v * s)[:, None, :]
-    error -= chord
+    error = np.subtract(along[:, :, None], chord, out=chord)
+    error += (v * s)[:, None, :]
     nearest, farthest = box.u - box.half_u - radius - box.half_v, box.u + box.half_u + box.half_v
     if moves or farthest > empty.min():
         meets &= error < (empty - beams.ranges[chosen])[:, None, None]

@@ -21,6 +21,7 @@ GATE = 4.5
 """Size of the region that a prior restricts the search to, in standard deviations."""
 RIVAL = 0.5
 """A candidate is followed up as well if it scores at least this share of the best one."""
+EYE = np.eye(2)
 MOST_STARTS = 5
 """Scans that a joint fix takes its candidates from."""
 
@@ -116,7 +117,7 @@ class ScanModel:
         # A candidate is rougher than a fix: it may lie beside the target's centre by half its radius.
         rough = (0.5 * self._radius) ** 2 + self._noise**2
         return Region(
-            mean=_pair(mean, "prior_mean"), covariance=p + rough * np.eye(2), velocity=velocity, gate=GATE
+            mean=_pair(mean, "prior_mean"), covariance=p + rough * EYE, velocity=velocity, gate=GATE
         )
 
 
@@ -127,9 +128,11 @@ def _rivals(candidates: Sequence[Candidate]) -> list[Candidate]:
 
 
 def _pair(values: Sequence[float] | Array, name: str) -> tuple[float, float]:
-    if np.shape(values) != (2,) or not np.isfinite(values).all():
-        raise MeasurementError(f"{name} must be two finite numbers, got {values!r}")
-    return float(values[0]), float(values[1])
+    if np.shape(values) == (2,):
+        first, second = float(values[0]), float(values[1])
+        if math.isfinite(first) and math.isfinite(second):
+            return first, second
+    raise MeasurementError(f"{name} must be two finite numbers, got {values!r}")
 
 
 def _area(room: Room) -> float:
