@@ -13,6 +13,7 @@ from estimators.fused.readings import IMAGE_BIASES, YAW, target_of
 from estimators.marker_fit import MarkerMeasurement
 from estimators.poses import Array, Pose2
 
+ANGLES: Final = np.array([True, True])
 MOST_LASTING: Final = 0.95
 """Largest share of a frame's variance that is taken to last; the rest keeps the filter well conditioned."""
 MOST_CARRIED: Final = 0.9
@@ -67,7 +68,7 @@ class MarkerReading:
         sigma = np.array([seen.limb_error, seen.shape_error / seen.distance])
         most = math.sqrt(MOST_ASIDE * float(covariance[0, 0]))
         sigma *= min(1.0, most / max(float(np.hypot(*sigma)), 1e-12))
-        own = np.outer([1.0, covariance[0, 1] / covariance[0, 0]], sigma)
+        own = np.array([[1.0], [covariance[0, 1] / covariance[0, 0]]]) * sigma
         aside = np.array([[1.0, 1.0], [seen.lean, seen.shape_lean]]) * sigma
         rest = covariance - own @ own.T
         # Of pictures that come again in turns their mean lasts.
@@ -85,7 +86,13 @@ class MarkerReading:
             fresh = fresh + pixels @ pixels.T
             object.__setattr__(self, "returned", np.linalg.solve(fresh, pixels).T)
             pixels = self.carried * pixels
-        lasting = np.column_stack([pixels, aside, scale, [0.0, seen.marker_error]])
+        lasting = np.zeros((2, 6))
+        lasting[:, :2], lasting[:, 2:4], lasting[:, 4], lasting[1, 5] = (
+            pixels,
+            aside,
+            scale,
+            seen.marker_error,
+        )
         if self.view is not None and not seen.quantised:
             # How large an error is said to be that lasts must not change while it does, as noise would have it: the
             # filter would take the difference between frames for a sign of the error.
@@ -111,7 +118,7 @@ class MarkerReading:
     @property
     def angles(self) -> Array:
         """See `Reading`."""
-        return np.array([True, True])
+        return ANGLES
 
     def expected(self, states: Array) -> tuple[Array, Array]:
         """See `Reading`."""
@@ -127,7 +134,7 @@ class MarkerReading:
         slopes[:, :, YAW] = (slopes[:, :, :2] @ turn[:, :, None])[:, :, 0]
         slopes[:, 1, YAW] += 1.0
         slopes[:, :, n - BIASES :][:, :, IMAGE_BIASES] = self.lasting
-        reading = np.stack([np.arctan2(d[:, 1], d[:, 0]), states[:, YAW] + self.mount.yaw], axis=1)
+        reading = np.array([np.arctan2(d[:, 1], d[:, 0]), states[:, YAW] + self.mount.yaw]).T
         reading -= seen.sensitivity * (distance - seen.distance)[:, None]
         return reading + states[:, -BIASES:][:, IMAGE_BIASES] @ self.lasting.T, slopes
 
@@ -144,7 +151,7 @@ class MarkerReading:
         shape = np.exp(-turned / SHAPE_TURN)
         # The width is off by how limbs are read: the same on every side where pixels average, else on the same pixels.
         scale = limbs if self.seen.quantised else np.ones_like(shape)
-        return np.stack([image, image, limbs, shape, scale, shape], axis=1)
+        return np.array([image, image, limbs, shape, scale, shape]).T
 
     def plausible(
         self, before: MarkerReading, velocities: Array, turning: Array, log_likelihood: Array

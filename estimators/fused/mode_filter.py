@@ -7,11 +7,11 @@ systems with Markovian switching coefficients", IEEE Transactions on Automatic C
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
+from estimators.fused.innovation import Innovation
 from estimators.fused.mixtures import mixtures
 from estimators.fused.motion import BIASES, CREEP, MotionModel, switching
 from estimators.fused.returning import Returned
@@ -31,26 +31,6 @@ Slopes = Callable[[Array, Array], Array]
 """From states (M, n) and the derivatives of a measurement by them (M, k, n): those by the calibration (M, k, q)."""
 Plausible = Callable[[Array], Array]
 """Log-likelihoods (M,) of modes, from those that a Gaussian error would give them."""
-
-
-@dataclass(frozen=True, slots=True)
-class Innovation:
-    """What a measurement said beyond what was expected.
-
-    Attributes:
-        residual: (k,).
-        covariance: (k, k) of it, as expected.
-        accepted: Whether the gate let it in.
-    """
-
-    residual: Array
-    covariance: Array
-    accepted: bool
-
-    @property
-    def normalized(self) -> float:
-        """Squared Mahalanobis length; chi-square with k degrees of freedom if all is well."""
-        return float(self.residual @ np.linalg.solve(self.covariance, self.residual))
 
 
 class ModeFilter:
@@ -107,7 +87,7 @@ class ModeFilter:
             x[self._rest] = self.x[self._rest]
             F[self._rest] = self._eye
             Q[self._rest] = 0.0
-            Q[:, (0, 1, 2), (0, 1, 2)] += dt * CREEP
+            np.einsum("mii->mi", Q)[:, :3] += dt * CREEP
             self.x, self.P = x, F @ self.P @ F.transpose(0, 2, 1) + Q
             if self.J.size:
                 self.J = F @ self.J
@@ -127,8 +107,7 @@ class ModeFilter:
         self.P = self.P * (fade[:, :, None] * fade[:, None, :])
         if self.J.size:
             self.J = self.J * fade[:, :, None]
-        every = np.arange(n)
-        self.P[:, every, every] += 1 - fade**2
+        np.einsum("mii->mi", self.P)[:] += 1 - fade**2
 
     def update(
         self,
@@ -155,7 +134,8 @@ class ModeFilter:
         """
         expected, H = measured(self.x)
         residual = z - expected
-        residual[:, angles] = wrap_angle(residual[:, angles])
+        if angles.any():
+            residual = np.where(angles, wrap_angle(residual), residual)
         PHt = self.P @ H.transpose(0, 2, 1)
         S = H @ PHt + R
         S_inverse = np.linalg.inv(S)
@@ -167,7 +147,7 @@ class ModeFilter:
             new, S_new, S_new_inverse = stage.residual, stage.S, stage.S_inverse
         distance = (new * (S_new_inverse @ new[:, :, None])[:, :, 0]).sum(axis=1)
         accepted = bool(distance.min() <= gate)
-        innovation = self._mixed_innovation(new, S_new, accepted)
+        innovation = Innovation(accepted, self.weights, new, S_new)
         if not accepted:
             return innovation
         K = PHt @ S_inverse
@@ -238,10 +218,6 @@ class ModeFilter:
         self.P[self._rest, :, self._speeds] = 0.0
         if self.J.size:
             self.J[self._rest, self._speeds] = 0.0
-
-    def _mixed_innovation(self, residual: Array, S: Array, accepted: bool) -> Innovation:
-        mean, covariance = mixtures(self.weights[:, None], residual, S)
-        return Innovation(mean[0], covariance[0], accepted)
 
 
 def turning(model: MotionModel, x: Array, P: Array) -> Array:

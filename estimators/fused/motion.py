@@ -30,7 +30,7 @@ RESTING: Final = 30.0
 stands; half a minute is what robots wait between tasks, and no figure of robots that drive depends on it."""
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class Mode:
     """A way of driving.
 

@@ -47,10 +47,14 @@ class Unicycle:
         """What slides (K,) are before anything is known."""
         return np.zeros(len(self.lasting))
 
+    def _slides(self, states: Array) -> Array:
+        """What slides are (K, M)."""
+        return np.asarray((states[:, 5 : 5 + len(self.lasting)] + self.means()).T)
+
     def _aside(self, states: Array) -> tuple[Array, Array, Array, Array]:
         """Speed to the left (M,) [m/s], its derivatives by v and by omega (M,), and those by the slides (K, M)."""
         by_slide, by_v, by_omega = self.ways(states[:, 3], states[:, 4])
-        slides = (states[:, 5 : 5 + len(self.lasting)] + self.means()).T
+        slides = self._slides(states)
         return (by_slide * slides).sum(0), (by_v * slides).sum(0), (by_omega * slides).sum(0), by_slide
 
     def step(self, states: Array, dt: float) -> tuple[Array, Array]:
@@ -68,12 +72,13 @@ class Unicycle:
         out[:, 2] += dt * omega
         out[:, slides] *= kept
         F = np.zeros((len(states), self.size, self.size))
-        F.reshape(len(states), -1)[:, :: self.size + 1] = 1.0
+        diagonal = F.reshape(len(states), -1)[:, :: self.size + 1]
+        diagonal[:] = 1.0
+        diagonal[:, slides] = kept
         F[:, 0, 2], F[:, 1, 2] = -dt * vy, dt * vx
         F[:, 0, 3], F[:, 1, 3] = dt * (c - by_v * s), dt * (s + by_v * c)
         F[:, 0, 4], F[:, 1, 4] = -dt * (0.5 * dt * vy + by_omega * s), dt * (0.5 * dt * vx + by_omega * c)
         F[:, 0, slides], F[:, 1, slides] = (-dt * s * by_slide).T, (dt * c * by_slide).T
-        F[:, slides, slides] = np.diag(kept)
         F[:, 2, 4] = dt
         return out, F
 
@@ -84,8 +89,9 @@ class Unicycle:
         qa, qt = densities.T
         Q = np.zeros((len(states), self.size, self.size))
         # Along the heading: [[dt^3/3, dt^2/2], [dt^2/2, dt]] q, turned into x and y.
-        Q[:, 0, 0], Q[:, 1, 1], Q[:, 0, 1] = (qa * dt**3 / 3 * f for f in (c * c, s * s, c * s))
-        Q[:, 1, 0] = Q[:, 0, 1]
+        along = qa * dt**3 / 3
+        Q[:, 0, 0], Q[:, 1, 1] = along * (c * c), along * (s * s)
+        Q[:, 0, 1] = Q[:, 1, 0] = along * (c * s)
         Q[:, 0, 3] = Q[:, 3, 0] = qa * dt**2 / 2 * c
         Q[:, 1, 3] = Q[:, 3, 1] = qa * dt**2 / 2 * s
         Q[:, 3, 3] = qa * dt
@@ -97,9 +103,10 @@ class Unicycle:
 
     def velocities(self, states: Array) -> Array:
         """See `MotionModel`."""
-        v, aside = states[:, 3], self._aside(states)[0]
+        v = states[:, 3]
+        aside = (self.ways(v, states[:, 4])[0] * self._slides(states)).sum(0)
         c, s = np.cos(states[:, 2]), np.sin(states[:, 2])
-        return np.stack([v * c - aside * s, v * s + aside * c], axis=1)
+        return np.array([v * c - aside * s, v * s + aside * c]).T
 
 
 CRAB: Final = 0.0005

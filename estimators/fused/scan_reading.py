@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
@@ -13,6 +13,7 @@ from estimators.fused.readings import SCAN_BIASES, YAW, target_of
 from estimators.poses import Array, Pose2
 from estimators.scan_model import PositionFix
 
+NO_ANGLES: Final = np.array([False, False])
 ALONG: Final = 0.12
 """Deviation of what stays of a scan fix along the line of sight as long as the same beams meet the target, in squares
 of a range's noise over the target's radius: over how much of the curve one range is uncertain (simulated at 1 to 4.6 m
@@ -40,6 +41,8 @@ class PositionReading:
         bearing_increment: Between beams [rad].
         curve: Square of a range's noise over the target's radius [m].
         repeated: Mean and deviation of what scans repeat along the line of sight [m], where that is known.
+        axes: Axes (2, 2) along and across the line of sight, in columns.
+        distance: From the LRF [m].
     """
 
     fix: PositionFix
@@ -48,6 +51,14 @@ class PositionReading:
     bearing_increment: float
     curve: float
     repeated: tuple[float, float] | None = None
+    axes: Array = field(init=False)
+    distance: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        dx, dy = (float(v) for v in self.fix.position - self.origin)
+        distance = math.hypot(dx, dy)
+        object.__setattr__(self, "distance", distance)
+        object.__setattr__(self, "axes", np.array([[dx, -dy], [dy, dx]]) / distance)
 
     @property
     def stamp(self) -> float:
@@ -63,28 +74,17 @@ class PositionReading:
         """See `Reading`."""
         return SCAN_BIASES
 
-    def _sight(self) -> tuple[Array, float]:
-        """Axes (2, 2) along and across the line of sight in columns, and the distance [m]."""
-        d = self.fix.position - self.origin
-        distance = float(np.hypot(*d))
-        ux, uy = d / distance
-        return np.array([[ux, -uy], [uy, ux]]), distance
-
-    def _along(self, axes: Array) -> tuple[float, float]:
+    def _along(self) -> tuple[float, float]:
         """Deviation along the line of sight [m], and what share of it lasts."""
-        along = math.sqrt(float(axes[:, 0] @ self.fix.covariance @ axes[:, 0]))
+        sight = self.axes[:, 0]
+        along = math.sqrt(float(sight @ self.fix.covariance @ sight))
         lasting = ALONG * self.curve if self.repeated is None else self.repeated[1]
         return along, min(lasting / along, MOST_ALONG)
 
     @property
-    def axes(self) -> Array:
-        """Axes (2, 2) along and across the line of sight, in columns."""
-        return self._sight()[0]
-
-    @property
     def spacing(self) -> float:
         """Between beams at the target [m]."""
-        return self._sight()[1] * self.bearing_increment
+        return self.distance * self.bearing_increment
 
     def same_beams(self, before: PositionReading, velocity: Array) -> bool:
         """Whether a target of a velocity (2,) [m/s] was met by the same beams in an earlier scan."""
@@ -100,15 +100,14 @@ class PositionReading:
     @property
     def R(self) -> Array:  # noqa: N802
         """See `Reading`."""
-        axes, _ = self._sight()
-        _, share = self._along(axes)
-        scale = axes @ np.diag([math.sqrt(1 - share**2), FRESH_SHARE]) @ axes.T
+        _, share = self._along()
+        scale = (self.axes * (math.sqrt(1 - share**2), FRESH_SHARE)) @ self.axes.T
         return scale @ self.fix.covariance @ scale.T
 
     @property
     def angles(self) -> Array:
         """See `Reading`."""
-        return np.array([False, False])
+        return NO_ANGLES
 
     def expected(self, states: Array) -> tuple[Array, Array]:
         """See `Reading`."""
@@ -116,23 +115,21 @@ class PositionReading:
         H = np.zeros((len(states), 2, states.shape[1]))
         H[:, 0, 0] = H[:, 1, 1] = 1.0
         H[:, :, YAW] = turn
-        axes, distance = self._sight()
-        along, share = self._along(axes)
+        along, share = self._along()
         # Across, the scale must not follow the fix's own covariance, which varies with the very error it scales.
-        lasting = axes * (share * along, ACROSS_BEAMS * distance * self.bearing_increment)
+        lasting = self.axes * (share * along, ACROSS_BEAMS * self.spacing)
         biases = states[:, -BIASES:][:, SCAN_BIASES]
         H[:, :, -BIASES:][:, :, SCAN_BIASES] = lasting
         return target + biases @ lasting.T, H
 
     def kept(self, before: PositionReading, velocities: Array, turning: Array) -> Array:
         """See `Reading`."""
-        axes, distance = self._sight()
-        moved = np.abs(velocities @ axes) * abs(self.stamp - before.stamp)
-        beams = (moved[:, 0] * 0.1 + moved[:, 1]) / (distance * self.bearing_increment)
-        kept = np.repeat(np.clip(1 - beams / SAME_BEAMS, 0.0, 1.0)[:, None], 2, axis=1)
-        if (self.repeated is None) != (before.repeated is None):
-            kept[:, 0] = 0.0  # of one it is the whole, of the other what is left
-        return kept
+        moved = np.abs(velocities @ self.axes) * abs(self.stamp - before.stamp)
+        beams = (moved[:, 0] * 0.1 + moved[:, 1]) / self.spacing
+        across = np.minimum(np.maximum(1 - beams / SAME_BEAMS, 0.0), 1.0)
+        # Of one reading it is the whole, of the other what is left.
+        along = across if (self.repeated is None) == (before.repeated is None) else np.zeros_like(across)
+        return np.array([along, across]).T
 
     def plausible(
         self, before: PositionReading, velocities: Array, turning: Array, log_likelihood: Array

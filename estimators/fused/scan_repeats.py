@@ -57,7 +57,7 @@ class RepeatedErrors:
         axes = reading.axes
         least = np.array([LEAST_ALONG * self._radius, LEAST_ASIDE * reading.spacing])
         spread = covariance + self._slopes.of_fix_open(reading) + (axes * least**2) @ axes.T
-        place, deviations = axes.T @ target, np.sqrt(np.diag(axes.T @ spread @ axes))
+        place, deviations = axes.T @ target, np.sqrt((axes.T @ spread @ axes).diagonal())
         far = np.abs(place - self._place) > SAME_PLACE * self._deviations
         better = deviations < SAME_PLACE * self._deviations
         worse = deviations > self._deviations / SAME_PLACE

@@ -9,7 +9,8 @@ import numpy as np
 
 from estimators.fused.calibration_slopes import CalibrationSlopes
 from estimators.fused.frame_reading import MarkerReading
-from estimators.fused.mode_filter import Innovation, ModeFilter, Slopes
+from estimators.fused.innovation import Innovation
+from estimators.fused.mode_filter import ModeFilter, Slopes
 from estimators.fused.motion import MotionModel
 from estimators.fused.readings import Reading
 from estimators.fused.scan_reading import PositionReading
@@ -95,6 +96,7 @@ class Track:
         self._passed: list[Moment] | None = [] if keep else None
         self._moments = [self._moment(first, None, {PositionReading: first})]
         self._ahead: tuple[Moment, float] | None = None  # from which moment to what time the filter is now
+        self._now: tuple[Moment, tuple[Array, Array]] | None = None  # what `now` said, and after which moment
 
     @property
     def stamp(self) -> float:
@@ -119,7 +121,13 @@ class Track:
 
     def now(self) -> tuple[Array, Array]:
         """State (n,) and covariance (n, n) at the latest measurement, with what the calibration leaves open."""
-        self._predict(self._moments[-1], self.stamp)
+        last = self._moments[-1]
+        if self._now is None or self._now[0] is not last:
+            self._now = last, self._after(last)
+        return self._now[1]
+
+    def _after(self, moment: Moment) -> tuple[Array, Array]:
+        self._predict(moment, moment.reading.stamp)
         f = self._filter
         state, P = f.combined()
         if not self.slopes.count:
