@@ -22,8 +22,9 @@ from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
 from stable_baselines3.common.vec_env import DummyVecEnv, SubprocVecEnv, VecEnv, VecNormalize
 
 from benchmarks.output import staged
+from benchmarks.training.curves import last_is_best, past_evaluations
 from benchmarks.training.exchanges import start_server, whole
-from benchmarks.training.folder import BUFFER, EVALUATIONS, NORMALIZER, POLICY, Run
+from benchmarks.training.folder import BEST, BUFFER, NORMALIZER, POLICY, Run
 from benchmarks.training.surroundings import training_env
 from estimators.errors import ConfigError
 
@@ -60,25 +61,17 @@ class _Watch(BaseCallback):
 
 
 class _Curve(EvalCallback):
-    """Evaluates now and then; a training that goes on continues the curve."""
+    """Drives the same episodes now and then and keeps the best policy; a training that goes on continues the curve."""
 
-    def __init__(self, env: VecEnv, folder: Path, episodes: int, every: int) -> None:
-        super().__init__(
-            env,
-            n_eval_episodes=episodes,
-            eval_freq=every,
-            log_path=str(folder),
-            best_model_save_path=str(folder),
-            verbose=0,
-        )
-        before = folder / EVALUATIONS
-        if before.is_file():
-            past = np.load(before)
-            self.evaluations_timesteps = past["timesteps"].tolist()
-            self.evaluations_results = past["results"].tolist()
-            self.evaluations_length = past["ep_lengths"].tolist()
-            self.evaluations_successes = past["successes"].tolist() if "successes" in past else []
-            self.best_mean_reward = float(past["results"].mean(axis=1).max())
+    def __init__(self, env: VecEnv, folder: Path, run: Run) -> None:
+        settings = run.settings
+        every = max(1, settings.evaluate_every // settings.environments)
+        episodes = settings.evaluate_episodes
+        super().__init__(env, n_eval_episodes=episodes, eval_freq=every, log_path=str(folder), verbose=0)
+        self._folder, self._seed = folder, run.seed + EVALUATION_SEED
+        past = past_evaluations(folder)
+        self.evaluations_timesteps, self.evaluations_results = past["timesteps"], past["results"]
+        self.evaluations_length, self.evaluations_successes = past["ep_lengths"], past["successes"]
 
     def _init_callback(self) -> None:
         with warnings.catch_warnings():
@@ -89,6 +82,16 @@ class _Curve(EvalCallback):
     def _on_training_start(self) -> None:
         # Calls count from the first step, also where a training goes on: it would be evaluated late or never else.
         self.n_calls = self.model.num_timesteps // self.training_env.num_envs
+
+    def _on_step(self) -> bool:
+        due = self.n_calls % self.eval_freq == 0
+        if due:
+            self.eval_env.seed(self._seed)  # ways drawn anew differ by more than policies do
+        goes_on = super()._on_step()
+        if due and last_is_best(self.evaluations_successes, self.evaluations_results):
+            with staged(self._folder) as scratch:
+                self.model.save(scratch / BEST)
+        return goes_on
 
 
 def train(run: Run, folder: Path, *, resume: bool, jobs: int, progress: Progress) -> int:
@@ -119,13 +122,11 @@ def train(run: Run, folder: Path, *, resume: bool, jobs: int, progress: Progress
         if model.tensorboard_log is None:
             # Else it leaves a folder among the system's.
             model.set_logger(Logger(folder=None, output_formats=[]))
-        every = max(1, settings.evaluate_every // settings.environments)
-        curve = _Curve(checks, folder, settings.evaluate_episodes, every)
-        watch = _Watch(folder, settings.checkpoint_every, progress)
+        callbacks = [_Curve(checks, folder, run), _Watch(folder, settings.checkpoint_every, progress)]
         left = settings.steps - model.num_timesteps
         try:
             if left > 0:
-                model.learn(left, callback=CallbackList([curve, watch]), reset_num_timesteps=not resume)
+                model.learn(left, callback=CallbackList(callbacks), reset_num_timesteps=not resume)
         finally:
             save(model, folder)
         return int(model.num_timesteps)

@@ -10,8 +10,8 @@ from typer.testing import CliRunner
 
 from benchmarks.cli import app
 from benchmarks.commands import train
-from benchmarks.training.curves import learning_curve
-from benchmarks.training.folder import BEST, BUFFER, NORMALIZER, POLICY, read_run
+from benchmarks.training.curves import last_is_best, learning_curve
+from benchmarks.training.folder import BEST, BUFFER, EVALUATIONS, NORMALIZER, POLICY, read_run
 from gt_env import load_config
 
 
@@ -51,6 +51,37 @@ def test_what_goes_on_is_evaluated_at_the_same_steps(sb3, tmp_path):
         sb3.train(run, tmp_path, resume=steps > 32, jobs=1, progress=lambda n: None)
 
     assert learning_curve(tmp_path)["steps"].tolist() == [64]
+
+
+@pytest.mark.parametrize("algo", TINY)
+def test_every_evaluation_drives_the_same_episodes_and_of_equals_the_later_is_kept(algo, sb3, tmp_path):
+    for steps in (64, 192):  # evaluated every 64, by a policy that learns nothing
+        run = tiny(
+            algo, steps, evaluate_episodes=2, algorithm={**TINY[algo]["algorithm"], "learning_rate": 0.0}
+        )
+        run.write(tmp_path)
+        sb3.train(run, tmp_path, resume=steps > 64, jobs=1, progress=lambda n: None)
+
+    first, second, third = np.load(tmp_path / EVALUATIONS)["results"]
+    assert first[0] != first[1]
+    assert (first == second).all()
+    assert (first == third).all()
+    assert sb3.load(tmp_path / BEST).num_timesteps == 192
+
+
+@pytest.mark.parametrize(
+    ("successes", "returns", "best"),
+    [
+        ([[1, 0]], [[3.0, 1.0]], True),
+        ([[1, 0], [1, 1]], [[9.0, 9.0], [1.0, 2.0]], True),  # a success counts for more than any return
+        ([[1, 1], [1, 0]], [[1.0, 2.0], [9.0, 9.0]], False),
+        ([[1, 0], [0, 1]], [[1.0, 2.0], [2.0, 2.0]], True),
+        ([[1, 0], [0, 1]], [[2.0, 2.0], [1.0, 2.0]], False),
+        ([[1, 1], [0, 1], [1, 1]], [[2.0, 2.0], [5.0, 5.0], [2.0, 2.0]], True),
+    ],
+)
+def test_the_best_policy_has_most_successes_then_most_return_and_is_the_latest(successes, returns, best):
+    assert last_is_best(successes, returns) is best
 
 
 def test_tensorboard_shows_the_reward_in_its_terms(sb3, tmp_path):

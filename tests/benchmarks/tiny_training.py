@@ -12,9 +12,9 @@ TINY = {
 }  # fmt: skip
 
 
-def tiny(algo, steps, task="reach"):
+def tiny(algo, steps, task="reach", **changes):
     values = {"steps": steps, "estimate": "lrf", "evaluate_every": 64, "evaluate_episodes": 1,
-              "checkpoint_every": 64, "policy": {"net_arch": [8]}, **TINY[algo]}  # fmt: skip
+              "checkpoint_every": 64, "policy": {"net_arch": [8]}, **TINY[algo], **changes}  # fmt: skip
     settings = make_settings(values, "test")
     return Run(task=task, algo=algo, seed=0, settings=settings, config=CONFIG, setup={})
 
