@@ -12,6 +12,7 @@ from estimators.fused.motion import BIASES
 from estimators.fused.readings import IMAGE_BIASES, YAW, target_of
 from estimators.marker_fit import MarkerMeasurement
 from estimators.poses import Array, Pose2
+from estimators.two_by_two import cholesky, inverse
 
 ANGLES: Final = np.array([True, True])
 MOST_LASTING: Final = 0.95
@@ -77,14 +78,14 @@ class MarkerReading:
         repeated = share * rest
         if seen.repeated is not None:
             # Of what lasts limbs and shape take the same part as of the whole.
-            left = np.linalg.cholesky(rest) @ np.linalg.inv(np.linalg.cholesky(covariance))
+            left = cholesky(rest) @ inverse(cholesky(covariance))[0]
             repeated = MOST_LASTING * left @ seen.repeated @ left.T
         fresh = rest - repeated
-        pixels = np.linalg.cholesky(repeated)
+        pixels = cholesky(repeated)
         if self.carried is not None:
             pixels = pixels / math.sqrt(1.0 + self.carried**2)
             fresh = fresh + pixels @ pixels.T
-            object.__setattr__(self, "returned", np.linalg.solve(fresh, pixels).T)
+            object.__setattr__(self, "returned", (inverse(fresh)[0] @ pixels).T)
             pixels = self.carried * pixels
         lasting = np.zeros((2, 6))
         lasting[:, :2], lasting[:, 2:4], lasting[:, 4], lasting[1, 5] = (

@@ -17,6 +17,7 @@ from estimators.fused.motion import BIASES, CREEP, MotionModel, switching
 from estimators.fused.returning import Returned
 from estimators.fused.second_stage import SecondStage
 from estimators.poses import Array, wrap_angle
+from estimators.two_by_two import inverse
 
 YAW: Final = 2
 STOPPED: Final = 0.05, 0.5
@@ -134,17 +135,17 @@ class ModeFilter:
         """
         expected, H = measured(self.x)
         residual = z - expected
-        if angles.any():
-            residual = np.where(angles, wrap_angle(residual), residual)
+        residual = np.where(angles, wrap_angle(residual), residual)
         PHt = self.P @ H.transpose(0, 2, 1)
         S = H @ PHt + R
-        S_inverse = np.linalg.inv(S)
+        S_inverse, determinant = inverse(S)
         stage = None
         new, S_new, S_new_inverse = residual, S, S_inverse
         if slopes and self.J.size:
             by_calibration = slopes(self.x, H)
             stage = SecondStage(self.off, self.open, by_calibration - H @ self.J, residual, S)
             new, S_new, S_new_inverse = stage.residual, stage.S, stage.S_inverse
+            determinant = stage.determinant
         distance = (new * (S_new_inverse @ new[:, :, None])[:, :, 0]).sum(axis=1)
         accepted = bool(distance.min() <= gate)
         innovation = Innovation(accepted, self.weights, new, S_new)
@@ -155,7 +156,7 @@ class ModeFilter:
         # Joseph's form keeps the covariance symmetric and positive.
         A = self._eye - K @ H
         self.P = A @ self.P @ A.transpose(0, 2, 1) + K @ R @ K.transpose(0, 2, 1)
-        log_likelihood = plausible(-0.5 * (distance + np.log(np.linalg.det(S_new))))
+        log_likelihood = plausible(-0.5 * (distance + np.log(determinant)))
         weights = self.weights * np.exp(log_likelihood - log_likelihood.max())
         weights = np.maximum(weights / weights.sum(), LEAST_WEIGHT)
         self.weights = weights / weights.sum()
@@ -181,7 +182,7 @@ class ModeFilter:
 
     def combined_slopes(self) -> Array:
         """Derivatives (n, q) of the state over all modes by what is calibrated."""
-        return np.tensordot(self.weights, self.J, 1)
+        return np.asarray((self.weights @ self.J.reshape(len(self.J), -1)).reshape(self.J.shape[1:]))
 
     def _mix(self, dt: float) -> None:
         """Let modes switch: each starts from a mixture of all.
@@ -199,7 +200,7 @@ class ModeFilter:
         shares = joint / weights
         self.x, self.P = self._mixed(shares)
         if self.J.size:
-            self.J = np.tensordot(shares, self.J, (0, 0))
+            self.J = (shares.T @ self.J.reshape(len(self.J), -1)).reshape(self.J.shape)
         self.weights = weights
 
     def _mixed(self, shares: Array) -> tuple[Array, Array]:

@@ -6,9 +6,8 @@ Control 14(4), 1969: unknown constants are estimated from what a filter that tak
 
 from __future__ import annotations
 
-import numpy as np
-
 from estimators.poses import Array
+from estimators.two_by_two import inverse
 
 
 class SecondStage:
@@ -25,6 +24,7 @@ class SecondStage:
         residual: (M, k) with what the calibration is known to be off by taken out.
         S: (M, k, k) covariances of these, with what it leaves open.
         S_inverse: (M, k, k).
+        determinant: (M,) of `S`.
     """
 
     def __init__(self, off: Array, open_: Array, D: Array, residual: Array, S: Array) -> None:
@@ -32,7 +32,7 @@ class SecondStage:
         self._open_D = open_ @ D.transpose(0, 2, 1)
         self.residual = residual - D @ off
         self.S = S + D @ self._open_D
-        self.S_inverse = np.linalg.inv(self.S)
+        self.S_inverse, self.determinant = inverse(self.S)
 
     def learnt(self, weights: Array) -> tuple[Array, Array]:
         """What it is off by (q,), and the covariance (q, q) of that, after the measurement; modes have weights (M,)."""
@@ -40,7 +40,8 @@ class SecondStage:
         steps = (G @ self.residual[:, :, None])[:, :, 0]
         step = weights @ steps
         apart = steps - step
-        less = np.tensordot(weights, G @ self._open_D.transpose(0, 2, 1), 1)
+        q = len(step)
+        less = (weights @ (G @ self._open_D.transpose(0, 2, 1)).reshape(-1, q * q)).reshape(q, q)
         open_ = self._open - less + (apart * weights[:, None]).T @ apart
         return self._off + step, 0.5 * (open_ + open_.T)
 

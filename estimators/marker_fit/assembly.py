@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
-from estimators.calibration import TargetGeometry
 from estimators.marker_fit.association import Association
 from estimators.marker_fit.problem import Problem
 from estimators.marker_fit.profile import Profile
 from estimators.marker_fit.runs import MarkerRuns
 from estimators.marker_fit.silhouette import Silhouette
+from estimators.poses import Array
 
 BLUR = 0.12
 """Standard deviation of a share in a profile that was interpolated."""
@@ -20,7 +20,7 @@ REACH = 2
 
 
 def pose_problem(
-    target: TargetGeometry,
+    swallowed: Array,
     silhouette: Silhouette,
     runs: MarkerRuns,
     found: Association,
@@ -33,7 +33,7 @@ def pose_problem(
     """Put together what was found.
 
     Args:
-        target: What it is meant to look like.
+        swallowed: (K, 3) share of the light that each marker is meant to swallow, by channel.
         silhouette: Its limbs in the image.
         runs: Where something stands out of its white.
         found: Which of these is which marker.
@@ -43,8 +43,7 @@ def pose_problem(
         quantised: Whether a pixel is one sample.
         model_error: Standard deviation of edges and shares without noise [px].
     """
-    used = np.flatnonzero(found.markers >= 0)
-    swallowed = 1 - np.asarray(target.marker_colors, float) / 255
+    used = (found.markers >= 0).nonzero()[0]
     share, averaging = np.zeros(len(runs.columns)), np.ones(len(runs.columns))
     near = np.zeros(len(share), bool)
     bounds = np.concatenate([[0], (runs.ends[1:, 0] + runs.ends[:-1, 1] + 1) // 2, [len(share)]])

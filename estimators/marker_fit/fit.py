@@ -24,6 +24,7 @@ from estimators.marker_fit.sampled import feasible_poses
 from estimators.marker_fit.silhouette import find_silhouette
 from estimators.messages import ImageFrame
 from estimators.poses import Array, wrap_angle
+from estimators.two_by_two import inverse
 
 Method = Literal["photometric", "centroids"]
 GOOD_RESIDUAL = 0.04
@@ -61,6 +62,7 @@ class MarkerFit:
         self._outline = TargetOutline(calibration.target, camera.focal)
         self._period = self._outline.period
         self._associator = Associator(calibration.target, self._outline)
+        self._swallowed = 1 - np.asarray(calibration.target.marker_colors, float) / 255
         self._pixels = PixelKind()
         self._method: Method = method
         self._model_error = model_error
@@ -139,7 +141,7 @@ class MarkerFit:
         sampled = self._pixels.is_sampled(silhouette, runs)
         focal, error = self._camera.focal, self._model_error
         problem = pose_problem(
-            self._target, silhouette, runs, found, distance, focal, profile, sampled, error
+            self._swallowed, silhouette, runs, found, distance, focal, profile, sampled, error
         )
         return problem, np.array([axis, axis + found.relative, d]), found.false_colors
 
@@ -179,8 +181,9 @@ class MarkerFit:
         """`expected` is the predicted direction of the axis in the camera's frame, and its deviation [rad]."""
         axis, yaw, distance = (float(v) for v in solution.pose)
         # For a given distance: the information's block of bearing and yaw, and how they lean on the distance.
-        covariance, repeated = _errors(solution)
-        sensitivity = -np.linalg.solve(solution.information[:2, :2], solution.information[:2, 2])
+        weighted, _ = inverse(solution.information[:2, :2])
+        covariance, repeated = _errors(solution, weighted)
+        sensitivity = -weighted @ solution.information[:2, 2]
         # Where samples are the same although the pan has moved, what is seen does not show that it did.
         doubt = expected[1] ** 2 / (expected[1] ** 2 + float(covariance[0, 0]))
         known = expected[0] + doubt * (axis - expected[0])
@@ -219,9 +222,13 @@ class MarkerFit:
         )
 
 
-def _errors(solution: Solution) -> tuple[Array, Array | None]:
-    """Covariances (2, 2) of bearing and yaw at a given distance: all, and what lasts, if that is no mere share."""
-    weighted = np.linalg.inv(solution.information[:2, :2])
+def _errors(solution: Solution, weighted: Array) -> tuple[Array, Array | None]:
+    """Covariances (2, 2) of bearing and yaw at a given distance: all, and what lasts, if that is no mere share.
+
+    Args:
+        solution: The fit.
+        weighted: What they would be if errors were as the fit weighs them (2, 2).
+    """
     # What the model does not explain is no pixel noise, and residuals show how large it is.
     unexplained = max(solution.misfit - 1.0, 0.0) * weighted
     if solution.errors is None:

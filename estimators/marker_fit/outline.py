@@ -28,16 +28,24 @@ class Outline(NamedTuple):
         limb_slopes: (2, 3) their derivatives [px/rad, px/rad, px/m].
         markers: (K, 2) left and right end of each marker, as if nothing hid it [px].
         marker_slopes: (K, 2, 3) their derivatives.
-        seen: (K, 2) whether that end stands on the side of the cylinder that faces the camera.
-        clear: (K, 2) the same as a number from 0 to 1 that passes smoothly from one to the other.
+        facing: (K, 2) sine of the angle from the tangent within which that end faces the camera, if positive.
     """
 
     limbs: Array
     limb_slopes: Array
     markers: Array
     marker_slopes: Array
-    seen: Flags
-    clear: Array
+    facing: Array
+
+    @property
+    def seen(self) -> Flags:
+        """Whether an end (K, 2) stands on the side of the cylinder that faces the camera."""
+        return self.facing > 0
+
+    @property
+    def clear(self) -> Array:
+        """The same as a number from 0 to 1 that passes smoothly from one to the other."""
+        return np.asarray(np.minimum(np.maximum(0.5 + self.facing / (2 * GRAZING), 0.0), 1.0))
 
     @property
     def widths(self) -> Array:
@@ -113,9 +121,7 @@ class TargetOutline:
         slopes[..., 0] = scaled - by_turn
         slopes[..., 2] = scaled * sin / square
         # Beyond the tangent point (cos = radius / d for a point of the cylinder) an edge is hidden.
-        facing = cos / reach - radius / d
-        clear = np.minimum(np.maximum(0.5 + facing / (2 * GRAZING), 0.0), 1.0)
-        return Outline(limbs, limb_slopes, -f * tan, slopes, facing > 0, clear)
+        return Outline(limbs, limb_slopes, -f * tan, slopes, cos / reach - radius / d)
 
     def turn_of(self, axis: float, columns: Array, distance: float) -> Array:
         """Angle on the cylinder (N,) [rad], from the direction to the camera, of what columns (N,) show."""

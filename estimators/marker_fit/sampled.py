@@ -25,6 +25,8 @@ WIDEST = 0.05
 """Where yaw is known less well than this the edges are no straight functions of it [rad]."""
 FEWEST = 12.0
 """Fewer effective samples than this and the least-squares solution stays."""
+NOTHING = -200.0
+"""Log-weight of what counts for nothing."""
 RESOLUTION = 0.03
 """What the samples themselves cannot resolve, as a share of the least-squares deviation."""
 
@@ -64,7 +66,9 @@ def feasible_poses(problem: Problem, outline: TargetOutline, start: Solution) ->
     believed = log_weight - outside / (2 * SOFTNESS**2)
     flat = log_weight - outside / (2 * FACETS**2) + _log_odds(len(middles))
     highest = max(float(believed.max()), float(flat.max()))
-    believed, flat = np.exp(believed - highest), np.exp(flat - highest)
+    # What counts for nothing is not made ever less: that takes long.
+    believed = np.exp(np.maximum(believed - highest, NOTHING))
+    flat = np.exp(np.maximum(flat - highest, NOTHING))
     weight = believed + flat
     total = float(weight.sum())
     weight /= total

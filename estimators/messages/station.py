@@ -101,7 +101,7 @@ class ImageFrame(Message):
         """The picture (H, W, 3) uint8, read-only."""
         if callable(self._pixels):
             self._store(self._pixels())
-        return cast(NDArray[np.uint8], self._pixels)
+        return cast("NDArray[np.uint8]", self._pixels)
 
     def _store(self, rgb: NDArray[np.uint8]) -> None:
         pixels = np.asarray(rgb)

@@ -196,11 +196,13 @@ def test_samples_that_stay_the_same_say_little_against_a_slow_turn_and_changed_o
 
 def test_no_number_of_frames_of_one_side_says_where_its_markers_stand(measurement):
     """A camera that sweeps averages over pixels, not over the shape of what it sees."""
-    f = ModeFilter(Unicycle())
+    f, none = ModeFilter(Unicycle()), np.zeros(2, bool)
     target = measurement.distance * np.array([math.cos(1.2), math.sin(1.2)]) + measurement.camera
     f.start(*target, measurement.yaw)
     place = np.diag(np.square([1e-6, 1e-6]))
-    f.update(target, lambda s: (s[:, :2], np.tile(np.eye(2, s.shape[1]), (len(s), 1, 1))), place, [], np.inf)
+    f.update(
+        target, lambda s: (s[:, :2], np.tile(np.eye(2, s.shape[1]), (len(s), 1, 1))), place, none, np.inf
+    )
     seen = dataclasses.replace(measurement, marker_error=3e-3, shape_error=0.0, systematic=0.9)
     before, still = MarkerReading(seen, Pose2(), 0.5), np.zeros((len(Unicycle.modes), 2))
     for i in range(400):
