@@ -88,13 +88,12 @@ class Associator:
         markers = np.where(explained[winner], gain[winner].argmax(axis=0), -1)
         matched = markers >= 0
         false = matched & (off[np.arange(len(markers)), markers] > 4)
-        if false.sum() >= matched.sum():
+        count = int(np.count_nonzero(false))
+        if count >= np.count_nonzero(matched):
             return None
         # The best-lit patches say more about the rotation than the one that proposed it.
         seen = np.abs(turn[matched]) < 1.0
         if seen.any():
             each = wrap_angle((turn - outline.angles[markers] - math.pi)[matched] - relative)
-            relative += float(each[seen].mean())
-        return Association(
-            wrap_angle(relative), markers.astype(np.int64), float(score[winner]), int(false.sum())
-        )
+            relative += float(each[seen].sum()) / np.count_nonzero(seen)
+        return Association(wrap_angle(relative), markers.astype(np.int64), float(score[winner]), count)

@@ -74,8 +74,9 @@ class TargetOutline:
         turn = np.array([[-outer, outer], [-base, base]])[:, None, :]
         around = math.pi + self.angles[:, None] + turn  # (2, K, 2)
         self._reach = np.array([math.hypot(half, face), target.radius])
-        self._points = self._reach[:, None, None] * np.stack([np.sin(around), np.cos(around)])
-        self._turned = np.stack([self._points[1], -self._points[0]])
+        sin, cos = self._reach[:, None, None] * np.stack([np.sin(around), np.cos(around)])
+        # Points (2, 2, K, 2) aside and towards the camera, by cosine and sine of the target's turn (2,).
+        self._around = np.stack([np.stack([sin, cos], axis=-1), np.stack([cos, -sin], axis=-1)])
         self._outwards = np.array([1.0, -1.0])
 
     @property
@@ -106,13 +107,13 @@ class TargetOutline:
         limb_slopes = np.array([[scale[0], 0.0, -scale[0] * spread], [scale[1], 0.0, scale[1] * spread]])
 
         # Points of the target, counted from the direction to the camera: aside, and towards it.
-        points = self._points * math.cos(relative) + self._turned * math.sin(relative)
+        points = self._around @ (math.cos(relative), math.sin(relative))
         forward, t = d - points[1], tangent[2]
         tan = (t * forward - points[0]) / (forward + t * points[0])
         # Of a side one sees what is farther out: on the left the greater tangent, on the right the smaller.
         is_foot = (tan[1] - tan[0]) * self._outwards > 0
         tan, (sin, cos) = np.where(is_foot, tan[1], tan[0]), np.where(is_foot, points[:, 1], points[:, 0])
-        reach = np.where(is_foot, *self._reach[::-1])
+        reach = self._reach[is_foot.astype(np.intp)]
         forward = d - cos
         square = forward * forward + sin * sin
         scaled = -f * (1 + tan * tan)

@@ -96,9 +96,8 @@ def peak_near(
     frame = Frame(origin=beams.origin, cos=dx / distance, sin=dy / distance)
 
     def log_density(box: Box, shape: tuple[int, int], step: float) -> Array:
-        total = np.zeros(shape)
-        for scan in scans:
-            total += log_likelihood_ratio(
+        ratios = [
+            log_likelihood_ratio(
                 scan,
                 frame,
                 box,
@@ -108,7 +107,9 @@ def peak_near(
                 velocity=velocity,
                 reference=time,
             )
-        return total
+            for scan in scans
+        ]
+        return sum(ratios[1:], start=ratios[0])
 
     spacing = distance * abs(beams.bearing_increment)
     start = Box(

@@ -94,13 +94,14 @@ def _on_grid(log_density: Array, box: Box, shape: tuple[int, int], cell: float) 
     u, v = box.nodes(*shape)
     peak = float(log_density.max())
     weight = np.exp(log_density - peak)
-    total = float(weight.sum())
-    along_u, along_v = weight.sum(axis=1) / total, weight.sum(axis=0) / total
-    du, dv = u - float(along_u @ u), v - float(along_v @ v)
-    cross = float(du @ weight @ dv) / total
+    along_u, along_v = weight.sum(axis=1), weight.sum(axis=0)
+    total = float(along_u.sum())
+    mean_u, mean_v = float(along_u @ u) / total, float(along_v @ v) / total
+    du, dv = u - mean_u, v - mean_v
+    cross = float(du @ weight @ dv)
     return Moments(
-        u=float(along_u @ u),
-        v=float(along_v @ v),
-        covariance=np.array([[along_u @ du**2, cross], [cross, along_v @ dv**2]]),
+        u=mean_u,
+        v=mean_v,
+        covariance=np.array([[along_u @ (du * du), cross], [cross, along_v @ (dv * dv)]]) / total,
         log_integral=peak + math.log(total * cell),
     )
