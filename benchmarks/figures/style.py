@@ -74,6 +74,12 @@ def new_figure(
 def save_png(figure: Figure, path: Path) -> None:
     """Write a figure; its bytes depend on nothing but what is drawn."""
     with paper():
+        figure.dpi = mpl.rcParams["savefig.dpi"]
+        layout = figure.get_layout_engine()
+        if layout is not None:
+            # Laid out here, where Matplotlib would draw all of it once for that, and a second time to write it.
+            layout.execute(figure)
+            figure.set_layout_engine(None)
         figure.savefig(path, metadata={"Software": None})
 
 
