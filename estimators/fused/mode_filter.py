@@ -191,7 +191,7 @@ class ModeFilter:
         """
         chances = switching(self.model.modes, dt)
         speeds, P = self.x[:, self._speeds], self.P[:, self._speeds, self._speeds]
-        distance = (speeds * np.linalg.solve(P + self._stops, speeds[..., None])[..., 0]).sum(axis=1)
+        distance = (speeds * (inverse(P + self._stops)[0] @ speeds[..., None])[..., 0]).sum(axis=1)
         closed = chances[:, self._rest] * (1.0 - np.maximum(np.exp(-0.5 * distance), LEAST_OPEN))[:, None]
         chances[:, self._rest] -= closed
         chances.reshape(-1)[:: len(chances) + 1] += closed.sum(axis=1)
