@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 import numpy as np
@@ -98,7 +99,7 @@ class Unicycle:
         Q[:, 2, 2], Q[:, 4, 4] = qt * dt**3 / 3, qt * dt
         Q[:, 2, 4] = Q[:, 4, 2] = qt * dt**2 / 2
         for i, (lasting, wandering) in enumerate(zip(self.lasting, self.wandering, strict=True), 5):
-            Q[:, i, i] = -np.expm1(-2 * dt / lasting) + dt * wandering**2
+            Q[:, i, i] = -math.expm1(-2 * dt / lasting) + dt * wandering**2
         return Q
 
     def velocities(self, states: Array) -> Array:

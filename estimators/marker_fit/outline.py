@@ -78,6 +78,7 @@ class TargetOutline:
         # Points (2, 2, K, 2) aside and towards the camera, by cosine and sine of the target's turn (2,).
         self._around = np.stack([np.stack([sin, cos], axis=-1), np.stack([cos, -sin], axis=-1)])
         self._outwards = np.array([1.0, -1.0])
+        self._last: tuple[tuple[float, float, float], Outline] | None = None
 
     @property
     def period(self) -> float:
@@ -98,6 +99,12 @@ class TargetOutline:
             relative: Yaw of the target less the bearing of its axis [rad].
             distance: From camera to the target's axis [m].
         """
+        pose = axis, relative, distance
+        if self._last is None or self._last[0] != pose:  # a fit begins where another one has ended
+            self._last = pose, self._at(*pose)
+        return self._last[1]
+
+    def _at(self, axis: float, relative: float, distance: float) -> Outline:
         f, radius, d = self.focal, self.radius, distance
         half = math.asin(radius / d)
         spread = radius / (d * math.sqrt(d * d - radius * radius))

@@ -163,7 +163,8 @@ class Problem:
 
     def limb_rows(self, outline: Outline) -> tuple[Array, Array]:
         """Residuals (2,) and slopes (2, 3) of the limbs, in standard deviations."""
-        return (self.limbs - outline.limbs) / self.limb_error, outline.limb_slopes / self.limb_error
+        error = self.limb_error
+        return (self.limbs - outline.limbs) / error, outline.limb_slopes / error
 
     def prior_row(self, distance: float) -> tuple[Array, Array]:
         """Residual (1,) and slopes (1, 3) of the predicted distance, in standard deviations."""

@@ -45,7 +45,11 @@ def lasting_error(
         radius: Of the target [m].
     """
     spread = np.linalg.cholesky(axes.T @ covariance @ axes)
-    errors = [_error(beams, axes, mean + axes @ spread @ step, radius) for step in SPREAD]
+    places = mean + SPREAD @ (axes @ spread).T
+    ranges = _without_noise(beams, places, radius)
+    nll = np.minimum((ranges - beams.empty) ** 2 * (0.5 / beams.sigma**2), NLL_CAP)
+    scans = [replace(beams, ranges=r, empty_nll=n) for r, n in zip(ranges, nll, strict=True)]
+    errors = [_error(scan, axes, place, radius) for scan, place in zip(scans, places, strict=True)]
     known = np.array([e for e in errors if e is not None])
     if not known.size:
         return 0.0, math.inf
@@ -53,18 +57,20 @@ def lasting_error(
     return float(known.mean()), math.hypot(float(known.std()), by_noise)
 
 
-def _error(beams: Beams, axes: Array, place: Array, radius: float) -> float | None:
-    """Of the fix of a scan without noise along the line of sight, of a target at a place (2,) [m]."""
-    dx, dy = place - beams.origin
+def _without_noise(beams: Beams, places: Array, radius: float) -> Array:
+    """Ranges (K, N) that a scan of a target at places (K, 2) would measure without noise [m]."""
+    dx, dy = (places - beams.origin).T[:, :, None]
     across = dx * beams.sin - dy * beams.cos
     chord = radius**2 - across**2
     ranges = dx * beams.cos + dy * beams.sin - np.sqrt(np.maximum(chord, 0.0))
     meets = (chord > 0) & (ranges > beams.range_min) & (ranges < beams.empty)
-    exact = np.where(meets, ranges, beams.empty)
-    nll = np.minimum((exact - beams.empty) ** 2 * (0.5 / beams.sigma**2), NLL_CAP)
-    without = replace(beams, ranges=exact, empty_nll=nll)
+    return np.where(meets, ranges, beams.empty)
+
+
+def _error(scan: Beams, axes: Array, place: Array, radius: float) -> float | None:
+    """Of the fix of a scan of a target at a place (2,) [m] along the line of sight."""
     near = float(place[0]), float(place[1])
-    peak = peak_near(near, 0.0, (without,), radius=radius, velocity=(0.0, 0.0))
+    peak = peak_near(near, 0.0, (scan,), radius=radius, velocity=(0.0, 0.0))
     if peak is None:
         return None
     frame, found = peak
