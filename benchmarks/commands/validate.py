@@ -18,7 +18,6 @@ from benchmarks.commands.options import (
     JobsOption,
     NoFiguresOption,
     OutOption,
-    QuickOption,
     SeedOption,
     SetOption,
     configuration,
@@ -41,6 +40,13 @@ CamerasOption = Annotated[
 ]
 
 
+QuickLookOption = Annotated[
+    bool,
+    typer.Option(
+        "--quick",
+        help="A look of about 20 s where all takes 4 minutes (two cores): few samples, short drives, no verdicts.",
+    ),
+]
 StressOption = Annotated[
     bool, typer.Option("--stress", help="Also swept scans, slipping wheels and high speed.")
 ]
@@ -61,7 +67,7 @@ def validate(
     config: ConfigOption = "thesis",
     overrides: SetOption = None,
     seed: SeedOption = 0,
-    quick: QuickOption = False,
+    quick: QuickLookOption = False,
     jobs: JobsOption = 2,
     engine: EngineOption = "loky",
     address: AddressOption = None,

@@ -13,9 +13,12 @@ from benchmarks.report.tables import NONE, Table, number
 NOTE = (
     "heading: mean absolute error. NEES of pose, position and heading: mean over runs, one sample of each, and between "
     "what that of an honest covariance lies 998 times in 1000. Harder drives and other rooms have targets too "
-    "(--stress, --rooms); a quick run has too few samples to judge by."
+    "(--stress, --rooms)."
 )
+UNJUDGED: Final = "not judged"
+"""In place of a verdict, where there are too few samples for one."""
 
+VERDICTS: Final = {True: "yes", False: "no", None: UNJUDGED}
 EXACT: Final = 15
 """Decimals that a double has."""
 
@@ -31,6 +34,7 @@ class Goal:
         asked: Least and largest for each number.
         reached: The numbers; None for one that could not be found.
         decimals: Of the table, at least.
+        judged: Whether there are enough samples to say that it is met.
     """
 
     what: str
@@ -39,11 +43,12 @@ class Goal:
     asked: tuple[tuple[float, float], ...]
     reached: tuple[float | None, ...]
     decimals: int
+    judged: bool = True
 
     @property
-    def met(self) -> bool:
-        """Whether all of them do."""
-        return all(self._between())
+    def met(self) -> bool | None:
+        """Whether all of them do; None where that is not judged."""
+        return all(self._between()) if self.judged else None
 
     @property
     def shown_decimals(self) -> int:
@@ -88,13 +93,15 @@ def valid_share(what: str, method: str, least: float, reached: float | None) -> 
 
 def goal_table(goals: Sequence[Goal]) -> Table:
     """Asked and reached."""
-    met = sum(goal.met for goal in goals)
+    met = sum(goal.met is True for goal in goals)
+    judged = all(goal.judged for goal in goals)
     return Table(
-        title=f"Targets: {met} of {len(goals)} met",
+        title=f"Targets: {met} of {len(goals)} met"
+        if judged
+        else "Targets, not judged: too few samples (quick run)",
         head=("target", "method", "asked", "reached", "met"),
         rows=tuple(
-            (goal.what, goal.method, _asked(goal), _reached(goal), "yes" if goal.met else "no")
-            for goal in goals
+            (goal.what, goal.method, _asked(goal), _reached(goal), VERDICTS[goal.met]) for goal in goals
         ),
         note=NOTE,
         section="summary",
@@ -102,7 +109,7 @@ def goal_table(goals: Sequence[Goal]) -> Table:
 
 
 def goals_json(goals: Sequence[Goal]) -> list[dict[str, Any]]:
-    """`asked`: the least and the largest value of each number, null for no bound."""
+    """`asked`: the least and the largest value of each number, null for no bound; `met`: null where not judged."""
     return [
         {
             "what": goal.what,

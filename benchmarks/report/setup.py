@@ -22,6 +22,7 @@ def describe(plan: Plan, command: str) -> dict[str, Any]:
         "seed": plan.seed,
         "methods": list(plan.methods),
         "samples": plan.samples,
+        "quick": plan.quick,
         "effort": asdict(plan.effort),
         "versions": versions(),
         "config": plan.config.as_dict(),

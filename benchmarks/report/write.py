@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -49,9 +49,11 @@ class Outcome:
         return next((part.failed for part in parts if part is not None and part.failed), None)
 
     def goals(self) -> list[Goal]:
-        """The documented targets beside what was reached."""
-        goals = reached_goals(self.validation.plan.config, self.scores, self.rooms)
-        return goals + ([*robot_goals(self.robots)] if self.robots is not None else [])
+        """The documented targets beside what was reached; a quick run has too few samples to judge by."""
+        plan = self.validation.plan
+        goals = reached_goals(plan.config, self.scores, self.rooms)
+        goals += robot_goals(self.robots) if self.robots is not None else []
+        return [replace(goal, judged=False) for goal in goals] if plan.quick else goals
 
     def tables(self) -> list[Table]:
         """In the order of the page."""

@@ -71,6 +71,11 @@ class Plan:
         """Per test point."""
         return self.effort.samples
 
+    @property
+    def quick(self) -> bool:
+        """Whether it is only to give a look."""
+        return self.effort == QUICK
+
 
 @dataclass(frozen=True, kw_only=True)
 class Validation:

@@ -1,6 +1,7 @@
 """Documented targets beside what was reached: complete, judged rightly, and only where they apply."""
 
 import json
+from dataclasses import replace
 
 import pytest
 from fake_validation import fake_validation
@@ -8,6 +9,8 @@ from fake_validation import fake_validation
 from benchmarks.report.goal import Goal, goal_table, goals_json
 from benchmarks.report.goals import reached_goals
 from benchmarks.report.scores import score_validation
+from benchmarks.report.write import Outcome
+from benchmarks.validation.effort import FULL
 from benchmarks.validation.goals import TARGETS, targeted_preset
 from gt_env.config import load_config
 
@@ -81,6 +84,30 @@ def test_a_goal_is_met_within_its_bounds_and_never_by_nothing(asked, reached, me
     assert table.rows[0][-1] == ("yes" if met else "no")
     assert table.title.startswith(f"Targets: {int(met)} of 1")
     json.dumps(goals_json([goal]), allow_nan=False)
+
+    unjudged = replace(goal, judged=False)
+    assert unjudged.met is None
+    assert goal_table([unjudged]).title.startswith("Targets, not judged")
+    assert goal_table([unjudged]).rows[0][:4] == table.rows[0][:4]
+
+
+def test_a_full_run_is_judged_and_its_drives_go_all_the_way():
+    pytest.importorskip("matplotlib")
+    from benchmarks.report.gallery.thesis import thesis_plates
+
+    quick = fake_validation()
+    full = replace(quick, plan=replace(quick.plan, effort=FULL))
+    met, captions = {}, {}
+    for name, validation in (("quick", quick), ("full", full)):
+        scores = score_validation(validation)
+        met[name] = [goal.met for goal in Outcome(validation=validation, scores=scores).goals()]
+        captions[name] = {p.name: f"{p.repeats} {p.caption}" for p in thesis_plates(validation, scores, {})}
+    assert None not in met["full"]
+    assert set(met["quick"]) == {None}
+    assert "stops at every corner" in captions["full"]["path"]
+    assert "stops" not in captions["quick"]["path"]
+    for drive in ("path", "path-x", "spin", "tour", "tour-angle"):
+        assert "its first 4 s" in captions["quick"][drive]
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,15 @@ from benchmarks.report.write import Outcome, write_numbers, write_page
 from benchmarks.validation.plan import plan_validation, run_validation
 from gt_env.config import load_config
 
-SETUP = {"command": "", "seed": 0, "samples": 1, "methods": METHODS, "versions": {}, "config": {}}
+SETUP = {
+    "command": "",
+    "seed": 0,
+    "quick": True,
+    "samples": 1,
+    "methods": METHODS,
+    "versions": {},
+    "config": {},
+}
 
 
 @pytest.fixture(scope="module")
@@ -49,6 +57,7 @@ def test_it_comes_to_the_same(whole, alone, tmp_path):
     for part in ("stress", "stress_consistency", "stress_more"):
         assert found["alone"][part] == found["whole"][part]
     assert found["alone"]["goals"]
+    assert {goal["met"] for goal in found["whole"]["goals"]} == {None}  # a quick run judges nothing
     assert all(goal in found["whole"]["goals"] for goal in found["alone"]["goals"])
 
 
@@ -56,11 +65,14 @@ def test_its_tables_and_its_page_hold_nothing_else(alone, tmp_path):
     mpl.use("Agg")
     harder, targets = outcome(alone).tables()
     assert harder.section == "stress"
-    assert "Targets" in targets.title
+    assert "not judged" in targets.title
+    assert {row[-1] for row in targets.rows} == {"not judged"}
     write_page(tmp_path, outcome(alone), SETUP, Console(quiet=True))
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert [path.name for path in tmp_path.glob("*.png")] == ["stress.png"]
     assert "Harder drives" in page
+    assert "a quick run</h1>" in page
+    assert 'class="no"' not in page
     assert "beside the thesis" not in page
 
 

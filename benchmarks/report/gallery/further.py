@@ -36,7 +36,12 @@ def further_plates(validation: Validation, scores: Scores) -> Iterator[Plate]:
             name=EIGHT,
             section="moving",
             repeats="",
-            caption="A figure of eight at 0.45 m/s.",
+            caption="A figure of eight at 0.45 m/s"
+            + (
+                "."
+                if (longest := validation.plan.effort.longest_drive) is None
+                else f", its first {longest:g} s."
+            ),
             draw=partial(map_figure, validation.moving[EIGHT], config.room.in_station_frame()),
         )
     yield from _band_plates(validation)

@@ -111,19 +111,21 @@ def _static_plates(validation: Validation) -> Iterator[Plate]:
 def _moving_plates(validation: Validation) -> Iterator[Plate]:
     moving, config = validation.moving, validation.plan.config
     room = config.room.in_station_frame()
+    longest = validation.plan.effort.longest_drive
+    part = "" if longest is None else f", its first {longest:g} s"
     path, spin, tour = moving["path"], moving["spin"], moving["tour"]
     yield Plate(
         name="path",
         section="moving",
-        repeats="5.9",
-        caption="Real and estimated way of the robot, which stops at every corner.",
+        repeats="5.9" + part,
+        caption="Real and estimated way of the robot" + (part or ", which stops at every corner") + ".",
         draw=partial(map_figure, path, room),
     )
     for column, axis, repeats in ((0, "x", "5.10"), (1, "y", "5.11")):
         yield Plate(
             name=f"path-{axis}",
             section="moving",
-            repeats=repeats,
+            repeats=repeats + part,
             caption=f"The {axis} coordinate along the path. The thesis's moving average lags behind a moving "
             "target: its error is small at rest and grows with the speed.",
             draw=partial(time_figure, path, column),
@@ -131,8 +133,8 @@ def _moving_plates(validation: Validation) -> Iterator[Plate]:
     yield Plate(
         name="spin",
         section="moving",
-        repeats="5.12",
-        caption="Turning on the spot, two turns each way. Below: the error over the real angle (dots: "
+        repeats="5.12" + part,
+        caption=f"Turning on the spot{part or ', two turns each way'}. Below: the error over the real angle (dots: "
         "frames; line: their mean) peaks where the next marker takes over, six times a turn; the "
         "scatter comes from whole pixels.",
         draw=partial(spin_figure, spin),
@@ -140,14 +142,14 @@ def _moving_plates(validation: Validation) -> Iterator[Plate]:
     yield Plate(
         name="tour",
         section="moving",
-        repeats="5.13",
-        caption="Moving and rotating around the map.",
+        repeats="5.13" + part,
+        caption=f"Moving and rotating around the map{part}.",
         draw=partial(map_figure, tour, room),
     )
     yield Plate(
         name="tour-angle",
         section="moving",
-        repeats="5.14",
+        repeats="5.14" + part,
         caption="The angle during the tour and its absolute error. The thesis saw one peak of 92 degrees, "
         f"which it puts down to a shadow; shadows are {'on' if config.light.shadow else 'off'} here.",
         draw=partial(time_figure, tour, 2),
