@@ -24,7 +24,7 @@ lint: .venv/installed-dev
 
 .venv/installed: .venv/bin/python pyproject.toml constraints.txt
 	@echo "installing gt-env into .venv"
-	$(PIP_INSTALL) --editable '.[report]'
+	$(PIP_INSTALL) --editable '.[report,fast]'
 	@touch $@
 
 .venv/installed-dev: .venv/installed

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from threading import Timer
 from typing import Final, TypeVar
 
 from rich.console import Console
@@ -31,3 +33,26 @@ def tracked(items: Sequence[T], description: str) -> Iterator[T]:
     finally:
         if shown:
             progress.stop()
+
+
+@contextmanager
+def announced(what: str) -> Iterator[None]:
+    """Say on stderr what the block does once it has taken two seconds: a spinner on a terminal, a line in a file."""
+    console = Console(stderr=True, emoji=False)
+    status = console.status(what)
+
+    def begin() -> None:
+        if console.is_terminal:
+            status.start()
+        else:
+            console.print(what, soft_wrap=True, highlight=False, markup=False)
+
+    timer = Timer(PATIENCE, begin)
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+        timer.join()
+        status.stop()

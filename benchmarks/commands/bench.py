@@ -18,6 +18,7 @@ from benchmarks.commands.options import (
     require_report_extra,
 )
 from benchmarks.output import check_writable, staged
+from gt_env.config import load_config
 
 
 def bench(
@@ -31,11 +32,15 @@ def bench(
     """Measure speed and memory: sensors, steps, vector environments and estimators, in ratios."""
     from benchmarks.bench.report import bench_command, left_out, report_json, tables
     from benchmarks.bench.run import plan_bench, run_bench
+    from benchmarks.renderer import prepare_renderer
 
     settings = configuration(config, overrides)
     if not no_figures:
         require_report_extra()
     check_writable(out)
+    prepare_renderer(
+        load_config({"camera": {"renderer": "fast"}})
+    )  # whichever is asked for, all are measured
     console = Console(emoji=False)
     setup = plan_bench(settings, seed=seed, quick=quick)
     findings = run_bench(setup, console)

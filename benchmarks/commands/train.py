@@ -10,7 +10,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter as clock
 from time import process_time
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 from rich.console import Console
@@ -132,10 +132,13 @@ def _resumed(folder: Path, task: str, algo: str, steps: int | None) -> Run:
 
 
 def _train(run: Run, folder: Path, resume: bool, jobs: int) -> None:
+    from benchmarks.renderer import prepare_renderer
     from benchmarks.training.surroundings import training_env
 
     env = training_env(run.task, run.config, run.settings)
     try:
+        base: Any = env.unwrapped
+        prepare_renderer(base.config)
         env.reset(seed=run.seed)  # what is wrong with the set-up is said before anything is written
     finally:
         env.close()

@@ -82,6 +82,7 @@ def validate(
     only: OnlyOption = None,
 ) -> None:
     """Repeat the thesis's validation beside its published numbers, and go beyond it: limits, honesty, other methods."""
+    from benchmarks.renderer import prepare_renderer
     from benchmarks.report.scores import score_validation
     from benchmarks.report.setup import describe, validate_command
     from benchmarks.report.write import Outcome, write_numbers, write_page
@@ -103,6 +104,9 @@ def validate(
     camera_plan = plan_cameras(settings, methods, seed=seed, quick=quick) if "cameras" in parts else None
     room_plan = plan_rooms(settings, methods, seed=seed, quick=quick) if "rooms" in parts else None
     robot_plan = plan_robots(settings, methods, seed=seed, quick=quick) if "robots" in parts else None
+    compared_cameras = camera_plan.runs.values() if camera_plan is not None else ()
+    for simulated in (settings, *(runs[0].config for runs in compared_cameras)):
+        prepare_renderer(simulated)
     watched_arena(settings, methods).close()  # what is wrong with the set-up is said here, not by a worker
     console = Console(emoji=False)
     running: dict[str, Any] = {"jobs": jobs, "console": console, "engine": place}

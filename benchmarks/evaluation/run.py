@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from rich.console import Console
@@ -11,6 +12,7 @@ from rich.console import Console
 from benchmarks.evaluation.candidates import Candidate, meet
 from benchmarks.evaluation.episode import LINGER, Episode, run_episode
 from benchmarks.policies.surroundings import check_task
+from benchmarks.renderer import prepare_renderer
 from benchmarks.sweeps.engines import Engine
 from benchmarks.sweeps.parallel import run_side_by_side
 from estimators.errors import ConfigError
@@ -91,6 +93,8 @@ def plan_evaluation(
     for candidate in found:  # what does not fit is said before anything is driven
         env, _ = meet(candidate, chosen, settled, estimate)
         try:
+            arena: Any = env.unwrapped
+            prepare_renderer(arena.config)
             env.reset(seed=plan.seeds[0])
         finally:
             env.close()

@@ -11,8 +11,8 @@ from typing import Any
 
 from benchmarks.validation.plan import Plan
 
-PACKAGES = ("gt-env", "numpy", "opencv-python-headless", "pybullet", "gymnasium")
-"""What the numbers may depend on."""
+PACKAGES = ("gt-env", "numpy", "opencv-python-headless", "pybullet", "gymnasium", "numba")
+"""What the numbers and their speed may depend on."""
 
 
 def describe(plan: Plan, command: str) -> dict[str, Any]:
