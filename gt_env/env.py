@@ -10,7 +10,7 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from estimators.calibration import Calibration
-from estimators.errors import ConfigError
+from estimators.errors import ConfigError, GtEnvError
 from estimators.localizers.calibration import RobotCalibration
 from estimators.messages import Message, PoseEstimate
 from estimators.poses import Array, Pose2
@@ -20,9 +20,13 @@ from gt_env.config.onboard import robot_calibration
 from gt_env.config.problems import pose_problem
 from gt_env.render.overview import Overview
 from gt_env.render.station_map import Goal
-from gt_env.render.window import available as window_available
 from gt_env.render.window import why_unavailable
 from gt_env.world import World
+
+
+class PickledError(GtEnvError, TypeError):
+    """An environment that was to be pickled or copied."""
+
 
 Observation = dict[str, NDArray[Any]]
 Info = dict[str, Any]
@@ -38,7 +42,8 @@ class ArenaEnv(gym.Env[Observation, Array]):
 
     ## Action Space
     `Box(-1, 1, (n,), float32)`, held for one step (`timing.step`, 0.1 s). Speeds are over the robot's maximum
-    (`robot.max_wheel_speed`, 29.4 rad/s by default).
+    (`robot.max_wheel_speed`, 29.4 rad/s by default). What lies beyond [-1, 1] is clipped to it, without a word; another
+    shape, NaN and infinity are refused with a `ConfigError`.
 
     | `robot.model` | n | action | `wheel_speeds` |
     |---|---|---|---|
@@ -86,26 +91,35 @@ class ArenaEnv(gym.Env[Observation, Array]):
     Never: neither terminated nor truncated. `gymnasium.make(..., max_episode_steps=N)` truncates.
 
     ## Arguments
-    `config`: an `EnvConfig`, a mapping, a preset's name or a TOML file's path. `render_mode`: `rgb_array`, or
-    `human` where there is a display.
+    `config`: an `EnvConfig`, a mapping, a preset's name or a TOML file's path. `render_mode`: None, `rgb_array`, or
+    `human`: a window, in real time, which needs a display and pygame (extra `window`); `metadata` of an environment
+    lists the modes that this machine has.
 
     ## Version History
     v0: first version.
     """
 
     metadata: dict[str, Any] = {  # noqa: RUF012 - Gymnasium's own declaration
-        "render_modes": ["rgb_array", *(["human"] if window_available() else [])],
+        "render_modes": ["rgb_array", "human"],
         "render_fps": 10,
     }
 
     def __init__(self, config: ConfigLike = None, render_mode: str | None = None) -> None:
-        if render_mode is not None and render_mode not in self.metadata["render_modes"]:
-            reason = f": {why_unavailable()}" if render_mode == "human" else ""
-            allowed = ", ".join(self.metadata["render_modes"])
-            raise ConfigError(f"render_mode = {render_mode!r}: must be one of {allowed}{reason}")
+        modes = self.metadata["render_modes"]
+        if render_mode is not None and render_mode not in modes:
+            raise ConfigError(f"render_mode = {render_mode!r}: must be None or one of {', '.join(modes)}")
+        missing = why_unavailable()
+        if render_mode == "human" and missing:
+            raise ConfigError(
+                f"render_mode = 'human': {missing}; 'rgb_array' needs neither display nor pygame"
+            )
         self.config = load_config(config)
         self.render_mode = render_mode
-        self.metadata = {**self.metadata, "render_fps": max(1, round(1 / self.config.timing.step))}
+        # The class lists what can be asked for, so that Gymnasium asks it; an instance what its checkers can try here.
+        self.metadata = {
+            "render_modes": [mode for mode in modes if mode != "human" or not missing],
+            "render_fps": max(1, round(1 / self.config.timing.step)),
+        }
         self._ticks = self.config.ticks(self.config.timing.step)
         self._build(self.config)
         actions: Any = spaces.Box(-1.0, 1.0, (self._world.robot.actions,), np.float32)
@@ -215,6 +229,17 @@ class ArenaEnv(gym.Env[Observation, Array]):
         if problem:
             raise ConfigError(f"options['pose'] = {pose.as_array().tolist()}: {problem}")
         return pose
+
+    def __getstate__(self) -> Any:
+        """Refuse to be pickled or copied: the engine's world lives outside Python.
+
+        Raises:
+            PickledError: Always.
+        """
+        raise PickledError(
+            "an environment cannot be pickled or copied, its world is the engine's: pickle env.spec, or "
+            "env.unwrapped.config, and make another: gymnasium.make(spec)"
+        )
 
     def _checked(self, action: Array) -> Array:
         values = np.asarray(action, dtype=float)

@@ -51,6 +51,8 @@ def why_unavailable() -> str:
 class Window:
     """A window that shows frames at a steady rate.
 
+    A process has one: a further one takes its place, and to close either closes both.
+
     Args:
         title: Of the window.
         size: Width and height of the frames [px].
@@ -124,6 +126,7 @@ class Window:
 
     def _listen(self) -> None:
         """Take what happened from the system, which otherwise believes that the program hangs."""
+        self.closed = self.closed or not self._pygame.display.get_init()
         if self.closed:
             return
         for event in self._pygame.event.get():

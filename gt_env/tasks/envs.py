@@ -15,7 +15,7 @@ from gt_env.tasks.reach import Reach
 
 SHARED: Final = {
     "ACTION": """As `gt_env/Arena-v0`: `Box(-1, 1, (n,), float32)`, wheel speeds over the robot's maximum, held for one
-step of 0.1 s.""",
+step of 0.1 s; clipped to [-1, 1] without a word, refused if of another shape or not finite.""",
     "OBSERVATION": "That of `gt_env/Arena-v0` (without `image` by default), and",
     "REWARD": 'The sum of `info["reward_terms"]`; the weights are `task.reward`.',
     "TIME_AND_SMOOTHNESS": """| `time` | minus the step's duration [s] | 0.2 |
