@@ -17,6 +17,8 @@ from gt_env.tasks.task import Judgement, Moment, Task
 
 PRESET: Final = "tasks"
 """The preset of environments with a task, where none is named."""
+WORLDS: Final = 20
+"""Random rooms that are drawn until one has a place for everything."""
 
 
 class TaskEnv(ArenaEnv):
@@ -51,7 +53,7 @@ class TaskEnv(ArenaEnv):
 
         Raises:
             ConfigError: If an option is unknown, the robot cannot stand at the pose, or the goal lies outside
-                the room.
+                the room; in random rooms, if that is so in `WORLDS` of them one after the other.
         """
         observation, info = super().reset(seed=seed, options=options)
         self._action = np.zeros_like(self._action)
@@ -101,11 +103,20 @@ class TaskEnv(ArenaEnv):
         return t >= self._success_at + self.config.task.linger - 0.5 * self.config.timing.tick
 
     def _start_pose(self, options: dict[str, Any]) -> Pose2:
-        """Lay out the episode: the world, start and goal."""
+        """Lay out the episode: the world, start and goal; a random world that has no place for them is drawn again."""
+        if not self._random:
+            return self._begun(options)
+        for _ in range(WORLDS):
+            try:
+                self._renew(drawn(self.config, self.np_random))
+                return self._begun(options)
+            except ConfigError as error:
+                reason = error
+        raise ConfigError(f"{reason}; so in {WORLDS} random rooms")
+
+    def _begun(self, options: dict[str, Any]) -> Pose2:
         options = dict(options)
         goal = options.pop("goal", None)
-        if self._random:
-            self._renew(drawn(self.config, self.np_random))
         start = super()._start_pose(options) if options else None
         return self.task.begin(self.np_random, self._room, start, goal)
 
