@@ -55,3 +55,23 @@ def test_every_piece_of_python_runs(page, tmp_path, monkeypatch):
     for made in ("env", "arena"):
         if made in names:
             names[made].close()
+
+
+def test_the_recording_that_is_shown_holds_every_step_to_its_end(tmp_path, monkeypatch):
+    pytest.importorskip("pybullet")
+    monkeypatch.chdir(tmp_path)
+    (piece,) = re.findall(r"```python\n(.*?)```", PAGES["recordings.md"], re.S)
+    names = {}
+    exec(piece, names)
+    recording = names["recording"]
+
+    assert recording.truth[[0, -1], 0] == pytest.approx([0.0, 2.0])
+    scans = [m.stamp for m in recording.messages if m.source == "station/lrf"]
+    assert scans == pytest.approx([0.1 * i for i in range(21)])
+
+
+def test_pages_close_the_environments_that_they_make():
+    pieces = [p for page in PAGES.values() for p in re.findall(r"```python\n(.*?)```", page, re.S)]
+    for piece in pieces:
+        vectors = re.findall(r"^ *(\w+) = (?:gym\.make_vec|SubprocVecEnv)\(", piece, re.M)
+        assert all(f"{name}.close()" in piece for name in vectors), piece

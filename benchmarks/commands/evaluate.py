@@ -105,15 +105,17 @@ def evaluate(
     words += ["--config", config] if config else []
     for override in overrides or ():
         words += ["--set", override]
+    words += ["--video"] * video
     found = findings(plan, driven, evaluate_command(words))
     with staged(out) as folder:
         (folder / "report.json").write_text(report_json(found) + "\n", encoding="utf-8")
-        if not no_figures:
-            from benchmarks.evaluation.page import write_page
-
-            write_page(folder, found)
+        films = {}
         if video:
             from benchmarks.evaluation.video import write_videos
 
-            write_videos(folder, plan)
+            films = write_videos(folder, plan)
+        if not no_figures:
+            from benchmarks.evaluation.page import write_page
+
+            write_page(folder, found, films)
     show(console, tables(found), str(out / ("report.json" if no_figures else "report.html")))

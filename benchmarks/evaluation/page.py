@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -21,8 +22,14 @@ CAPTIONS = {
 }
 
 
-def write_page(folder: Path, found: Findings) -> None:
-    """Write the figures and `report.html`, which holds them. Needs the extra `report`."""
+def write_page(folder: Path, found: Findings, films: Mapping[str, str]) -> None:
+    """Write the figures and `report.html`, which holds them. Needs the extra `report`.
+
+    Args:
+        folder: Where they go.
+        found: What to show.
+        films: Files beside the page, by policy.
+    """
     figures = _figures(found)
     for name, figure in figures.items():
         save_png(figure, folder / f"{name}.png")
@@ -35,6 +42,7 @@ def write_page(folder: Path, found: Findings) -> None:
         kinds={c.name: c.kind for c in found.plan.candidates},
         trainings={c.name: c.run.settings.estimate for c in found.plan.candidates if c.run},
         captions=CAPTIONS,
+        films=films,
     )
 
 

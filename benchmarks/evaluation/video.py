@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import cv2
 import numpy as np
@@ -13,43 +13,72 @@ from benchmarks.evaluation.episode import run_episode
 from benchmarks.evaluation.run import Evaluation
 from benchmarks.output import OutputError
 from benchmarks.progress import tracked
+from gt_env.quiet import quiet
+
+SUFFIX: Final = ".webm"
+CODEC: Final = "VP80"
+"""VP8; VP9 makes files a tenth smaller in eight times the time."""
 
 
-def write_videos(folder: Path, plan: Evaluation) -> list[str]:
-    """Drive every policy's first episode again and write it as `NAME.mp4`; returns the files' names.
+def write_videos(folder: Path, plan: Evaluation) -> dict[str, str]:
+    """Drive every policy's first episode again and write it as `NAME.webm`; returns the files' names by policy.
 
     Raises:
         OutputError: If this OpenCV cannot write such a file.
     """
-    names = []
+    names = {}
     for candidate in tracked(plan.candidates, "filming"):
         env, policy = meet(candidate, plan.task, plan.config, plan.estimate, render_mode="rgb_array")
-        name = "".join(c if c.isalnum() or c in "-_." else "_" for c in candidate.name) + ".mp4"
-        film = _Film(folder / name, round(1 / plan.config.timing.step))
+        name = "".join(c if c.isalnum() or c in "-_." else "_" for c in candidate.name) + SUFFIX
         try:
-            run_episode(env, policy, plan.seeds[0], on_step=lambda env=env, film=film: film.add(env.render()))
+            with Film(folder / name, round(1 / plan.config.timing.step)) as film:
+                run_episode(
+                    env, policy, plan.seeds[0], on_step=lambda env=env, film=film: film.add(env.render())
+                )
         finally:
-            film.close()
             env.close()
-        names.append(name)
+        names[candidate.name] = name
     return names
 
 
-class _Film:
-    """A video file that takes its size from its first frame."""
+class Film:
+    """A video file that browsers play: WebM with VP8, which OpenCV's packages can write; H.264 they cannot.
 
-    def __init__(self, path: Path, fps: int) -> None:
-        self._path, self._fps = path, fps
+    It takes its size from its first frame, and is complete after `close` or at the end of a `with` block.
+
+    Args:
+        path: Where it goes; ends in `.webm`.
+        fps: Frames per second.
+
+    Raises:
+        OutputError: If the path ends otherwise.
+    """
+
+    def __init__(self, path: str | Path, fps: float) -> None:
+        self._path, self._fps = Path(path), fps
         self._writer: Any = None
+        if self._path.suffix != SUFFIX:
+            raise OutputError(f"{self._path.name}: a film's name must end in {SUFFIX}")
+
+    def __enter__(self) -> Film:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     def add(self, frame: Any) -> None:
-        """Append an RGB frame."""
+        """Append an RGB frame (H, W, 3) uint8, as `render()` returns it.
+
+        Raises:
+            OutputError: If this OpenCV cannot write such a file, or not there.
+        """
         if self._writer is None:
             size = (frame.shape[1], frame.shape[0])
-            code = cv2.VideoWriter.fourcc(*"mp4v")
-            self._writer = cv2.VideoWriter(str(self._path), code, self._fps, size)
+            with quiet():  # it says that it names the codec in another way than it was asked to
+                code = cv2.VideoWriter.fourcc(*CODEC)
+                self._writer = cv2.VideoWriter(str(self._path), cv2.CAP_FFMPEG, code, self._fps, size)
             if not self._writer.isOpened():
-                raise OutputError(f"{self._path.name}: this OpenCV writes no mp4 files")
+                raise OutputError(f"{self._path}: cannot be written by this OpenCV")
         self._writer.write(np.ascontiguousarray(frame[..., ::-1]))
 
     def close(self) -> None:

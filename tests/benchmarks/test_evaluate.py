@@ -12,6 +12,8 @@ from benchmarks.cli import app
 from benchmarks.evaluation.candidates import candidates, meet
 from benchmarks.evaluation.episode import Verdict, run_episode
 from benchmarks.evaluation.scores import scored, spread, wilson
+from benchmarks.evaluation.video import Film
+from benchmarks.output import OutputError
 from benchmarks.policies.surroundings import policy_env
 from estimators import ConfigError
 from gt_env import load_config
@@ -137,12 +139,24 @@ def test_the_page_shows_ways_and_tables(tmp_path):
     done = CliRunner().invoke(app, ["evaluate", *asked])
 
     assert done.exit_code == 0, done.output
-    assert {p.name for p in tmp_path.iterdir()} == {"report.json", "report.html", "ways.png", "polar.mp4"}
-    film = cv2.VideoCapture(str(tmp_path / "polar.mp4"))
-    assert (film.get(cv2.CAP_PROP_FRAME_COUNT), film.get(cv2.CAP_PROP_FPS)) == (10, 10)
+    assert {p.name for p in tmp_path.iterdir()} == {"report.json", "report.html", "ways.png", "polar.webm"}
+    film = cv2.VideoCapture(str(tmp_path / "polar.webm"))
+    assert film.get(cv2.CAP_PROP_FPS) == 10
+    assert int(film.get(cv2.CAP_PROP_FOURCC)).to_bytes(4, "little") == b"VP80"  # browsers play that
+    assert sum(film.read()[0] for _ in range(20)) == 10  # frames, one for each step
     page = (tmp_path / "report.html").read_text()
+    assert page.count('src="polar.webm"') == page.count('href="polar.webm"') == 1
+    assert "--video" in json.loads((tmp_path / "report.json").read_text())["setup"]["command"]
     assert page.count("data:image/png") == 1
     assert "way-points / min" in page
+
+
+@pytest.mark.parametrize("name", ["film.mp4", "absent/film.webm"])
+def test_a_film_that_cannot_be_written_is_refused(tmp_path, name):
+    with pytest.raises(OutputError, match="film"), Film(tmp_path / name, fps=10) as film:
+        film.add(np.zeros((48, 64, 3), np.uint8))
+
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("name", ["Straight", "Scanner"])
