@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import IO
 
 import numpy as np
+from mcap.exceptions import InvalidMagic
 from mcap.records import Channel, Metadata, Schema
 from mcap.records import Message as McapMessage
 from mcap.stream_reader import StreamReader
@@ -74,9 +75,10 @@ def _read_container(file: IO[bytes], origin: str) -> _Container:
                     container.messages.append(record)
     except OSError:
         raise
-    except Exception as error:  # damaged bytes make the library raise whatever its parts raise
-        reason = str(error) or "it ends early"
-        raise RecordingError(f"{origin}: not a complete recording (MCAP): {reason}") from None
+    except InvalidMagic:
+        raise RecordingError(f"{origin}: is no recording (MCAP), or is cut off or damaged") from None
+    except Exception:  # damaged bytes make the library raise whatever its parts raise
+        raise RecordingError(f"{origin}: is cut off or damaged: not a complete recording (MCAP)") from None
     return container
 
 

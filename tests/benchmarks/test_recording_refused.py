@@ -19,7 +19,7 @@ def test_truncated_file_is_one_error_that_names_it(tmp_path, cut):
     write(path, some_messages())
     whole = path.read_bytes()
     path.write_bytes(whole[: int(cut * len(whole)) if isinstance(cut, float) else cut])
-    with pytest.raises(RecordingError, match=r"run\.mcap"):
+    with pytest.raises(RecordingError, match=r"run\.mcap: .*is cut off or damaged"):
         read_recording(path)
 
 
