@@ -29,7 +29,10 @@ def bench(
     out: OutOption = Path("out/bench"),
     no_figures: NoFiguresOption = False,
 ) -> None:
-    """Measure speed and memory: sensors, steps, vector environments and estimators, in ratios."""
+    """Measure speed and memory, in ratios.
+
+    Of sensors, steps, vector environments and estimators.
+    """
     from benchmarks.bench.report import bench_command, left_out, report_json, tables
     from benchmarks.bench.run import plan_bench, run_bench
     from benchmarks.renderer import prepare_renderer

@@ -39,7 +39,10 @@ def calibrate(
     out: OutOption = Path("out/calibrate"),
     no_figures: NoFiguresOption = False,
 ) -> None:
-    """Calibrate LRF, camera, clocks and target from the known walls and the moving target of a recording."""
+    """Calibrate the station from a recording of a robot that drives.
+
+    LRF, camera, clocks and target, from the known walls and the moving target.
+    """
     from benchmarks.calibration.of_recording import calibrate as calibrate_recording
     from benchmarks.calibration.of_recording import calibrate_command, quantity_table, report, residual_table
     from benchmarks.recording.sources import LawOptions, open_source

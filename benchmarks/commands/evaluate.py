@@ -69,7 +69,10 @@ def evaluate(
     no_figures: NoFiguresOption = False,
     video: Annotated[bool, typer.Option("--video", help="Also film each policy's first episode.")] = False,
 ) -> None:
-    """Let policies drive the same episodes; judge each by the true pose and by what the station saw."""
+    """Let policies drive the same episodes, and judge them.
+
+    By the true pose, and by what the station saw.
+    """
     from benchmarks.evaluation.candidates import candidates
     from benchmarks.evaluation.report import evaluate_command, findings, report_json, tables
     from benchmarks.evaluation.run import plan_evaluation, run_evaluation

@@ -38,7 +38,10 @@ def play(
     method: GtMethodOption = "fused",
     out: OutOption = Path("out/play"),
 ) -> None:
-    """Drive with the arrow keys and record; in the terminal where there is no display."""
+    """Drive with the arrow keys, watched by the station, and record.
+
+    In a window, or in the terminal where there is no display.
+    """
     require_one_of("--method", method, METHODS)
     settings = configuration(config, overrides)
     check_writable(out)

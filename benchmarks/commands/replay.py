@@ -58,7 +58,10 @@ def replay(
     out: OutOption = Path("out/replay"),
     no_figures: NoFiguresOption = False,
 ) -> None:
-    """Run recorded measurements through a ground-truth method; write the poses and a figure."""
+    """Run recorded measurements through a ground-truth method.
+
+    Writes the poses, a figure and a page.
+    """
     require_one_of("--method", method, WATCHED)
     if not no_figures:
         require_report_extra("matplotlib")
@@ -166,4 +169,4 @@ def _to_mm(values: Numbers) -> Numbers:
 
 def _cells(values: Numbers, digits: tuple[int, ...]) -> list[str]:
     """Numbers as text, without a minus before zero."""
-    return ["-" if v is None else f"{round(v, d) + 0.0:.{d}f}" for v, d in zip(values, digits, strict=True)]
+    return ["-" if v is None else f"{v:z.{d}f}" for v, d in zip(values, digits, strict=True)]

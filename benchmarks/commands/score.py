@@ -117,7 +117,10 @@ def score(
     out: OutOption = Path("out/score"),
     no_figures: NoFiguresOption = False,
 ) -> None:
-    """Score localizers against the ground truth, and say where the reference is not good enough."""
+    """Score localizers against the station.
+
+    And say where the station, or another reference, is not good enough to judge.
+    """
     from benchmarks.scoring.carry_out import carry_out
     from benchmarks.scoring.write import offset_lines, write_page
     from benchmarks.sweeps.engines import Engine

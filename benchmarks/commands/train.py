@@ -82,7 +82,10 @@ def train(
         Path | None, typer.Option("--out", metavar="DIR", file_okay=False, help="Folder of the training.")
     ] = None,
 ) -> None:
-    """Train a policy by what the station sees; Ctrl-C leaves a checkpoint, --resume goes on from it."""
+    """Train a policy for a task by what the station sees.
+
+    Ctrl-C leaves a checkpoint, --resume goes on from it.
+    """
     folder = out or Path("out") / f"{task}_{algo}"
     default = shipped(task, algo)
     if estimate is not None and estimate not in ESTIMATES:

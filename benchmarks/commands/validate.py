@@ -81,7 +81,10 @@ def validate(
     robots: RobotsOption = False,
     only: OnlyOption = None,
 ) -> None:
-    """Repeat the thesis's validation beside its published numbers, and go beyond it: limits, honesty, other methods."""
+    """Repeat the thesis's validation beside its published numbers.
+
+    And go beyond it: limits of the measurements, honesty of what is stated, other methods.
+    """
     from benchmarks.renderer import prepare_renderer
     from benchmarks.report.scores import score_validation
     from benchmarks.report.setup import describe, validate_command

@@ -59,6 +59,15 @@ def test_a_wrong_method_is_refused_before_the_place_is_looked_at(gt_env, command
     assert err.count("\n") == 1
 
 
+def test_its_help_has_a_whole_line_for_every_command(gt_env, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    _, out, _ = gt_env("--help")
+    commands = out.split("Commands:")[1].strip().splitlines()
+
+    assert len(commands) >= 8
+    assert all(line.endswith(".") and not line.endswith("...") and "…" not in line for line in commands)
+
+
 def test_without_a_command_it_shows_its_help(gt_env):
     status, out, err = gt_env()
 
