@@ -123,7 +123,7 @@ def quantity_table(run: CalibrationRun) -> Table:
         value, error = run.found.values[i] * factor, run.found.standard_errors[i] * factor
         observed = bool(run.found.observed[i])
         row = [quantity.meaning, unit, _cell(run.found.believed[i], quantity)]
-        row += [f"{value:.3f}", f"{error:.3f}"] if observed else ["not observable in this data", NONE]
+        row += [number(value, 3), number(error, 3)] if observed else ["not observable in this data", NONE]
         if run.true is not None:
             z = (run.found.values[i] - run.true[i]) / run.found.standard_errors[i]
             row += [_cell(run.true[i], quantity), number(float(z), 1) if observed else NONE]
@@ -204,4 +204,4 @@ def calibrate_command(recording: str, config: str | None, overrides: list[str]) 
 
 
 def _cell(value: float, quantity: Quantity) -> str:
-    return f"{value * SHOWN[quantity.unit][1]:.3f}"
+    return number(value * SHOWN[quantity.unit][1], 3)

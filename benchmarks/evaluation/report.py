@@ -192,12 +192,12 @@ def percent(share: float | None) -> str:
 
 def points(share: float | None) -> str:
     """A difference of shares in percentage points, with its sign."""
-    return NONE if share is None else f"{100 * share:+.1f}"
+    return NONE if share is None else f"{100 * share:+z.1f}"
 
 
 def number(value: float | None, decimals: int, scale: float = 1.0) -> str:
     """A number, or a dash."""
-    return NONE if value is None else f"{scale * value:.{decimals}f}"
+    return NONE if value is None else f"{scale * value:z.{decimals}f}"
 
 
 def evaluate_command(words: Sequence[str]) -> str:

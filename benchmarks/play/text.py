@@ -29,7 +29,7 @@ def status_lines(status: Status) -> list[str]:
         dx, dy = 1e3 * (gt_pose.x - true_pose.x), 1e3 * (gt_pose.y - true_pose.y)
         lines.append(_row("gt - true", dx, dy, turn, "mm, mm, deg", 0))
         lines.append(_row("gt sigma", 1e3 * sigma[0], 1e3 * sigma[1], sigma[2] / DEG, "mm, mm, deg", 0))
-    wheels = " ".join(f"{speed:+6.1f}" for speed in status.wheel_speeds)
+    wheels = " ".join(f"{speed:+z6.1f}" for speed in status.wheel_speeds)
     pan = "" if status.pan is None else f"    pan {status.pan / DEG:.1f} deg"
     lines.append(f"wheels {wheels} rad/s{pan}")
     lines.append(recorder_line(status))
@@ -80,5 +80,5 @@ def pointer(pose: Pose2) -> str:
 
 
 def _row(name: str, x: float, y: float, yaw: float, units: str, digits: int) -> str:
-    shown = "-" if math.isnan(yaw) else f"{yaw:.1f}"
-    return f"{name:12}{x:>10.{digits}f}{y:>10.{digits}f}{shown:>10}  {units}"
+    shown = "-" if math.isnan(yaw) else f"{yaw:z.1f}"
+    return f"{name:12}{x:>z10.{digits}f}{y:>z10.{digits}f}{shown:>10}  {units}"

@@ -198,10 +198,7 @@ def _signed(values: Sequence[float]) -> Triple:
 
 def number(value: float | None, decimals: int) -> str:
     """A cell with so many decimals; `NONE` for nothing."""
-    if value is None:
-        return NONE
-    text = f"{value:.{decimals}f}"
-    return text.lstrip("-") if not float(text) else text  # no minus zero
+    return NONE if value is None else f"{value:z.{decimals}f}"  # z: no minus zero
 
 
 def angle(value: float | None) -> str:

@@ -159,7 +159,7 @@ def _offsets(order: Sequence[SubjectSummary], reference: str) -> Table:
                 continue
             _, factor = OFFSET_UNITS[name]
             star = "*" if abs(found.values[i]) > STANDS_OUT * found.errors[i] else ""
-            cells.append(f"{factor * found.values[i]:.2f} ± {factor * found.errors[i]:.2f}{star}")
+            cells.append(f"{factor * found.values[i]:z.2f} ± {factor * found.errors[i]:.2f}{star}")
         rows.append((s.name, *cells))
     head = ("subject", *(f"{name} [{OFFSET_UNITS[name][0]}]".replace("_", " ") for name in NAMES))
     note = (
@@ -179,11 +179,11 @@ def _comparisons(comparisons: Sequence[Comparison]) -> Table:
             (
                 f"{c.first} - {c.second}",
                 f"{c.what} [{unit}]",
-                f"{factor * c.difference:+.{digits}f}",
+                f"{factor * c.difference:+z.{digits}f}",
                 _range(c.interval, factor, digits),
                 "yes" if c.significant else "no",
-                f"{factor * c.resolvable:.{digits}f}",
-                f"{factor * c.by_station:.{digits}f}",
+                f"{factor * c.resolvable:z.{digits}f}",
+                f"{factor * c.by_station:z.{digits}f}",
             )
         )
     head = ("pair", "what", "difference", "95 %", "significant", "resolvable", "by the station")
@@ -216,4 +216,4 @@ def _one(c: Corrected | None, factor: float, digits: int) -> str:
 def _range(interval: tuple[float, float] | None, factor: float, digits: int) -> str:
     if interval is None:
         return NONE
-    return f"{factor * interval[0]:.{digits}f} … {factor * interval[1]:.{digits}f}"
+    return f"{number(factor * interval[0], digits)} … {number(factor * interval[1], digits)}"

@@ -71,4 +71,4 @@ def _verdict(value: float | None, true: float | None, bound: float | None) -> st
 
 def number(value: float | None, digits: int) -> str:
     """With so many digits, or a dash."""
-    return NONE if value is None else f"{value:.{digits}f}"
+    return NONE if value is None else f"{value:z.{digits}f}"

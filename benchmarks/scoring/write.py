@@ -178,7 +178,7 @@ def offset_lines(result: Result) -> list[str]:
         if found is None:
             continue
         out = [
-            f"{name.replace('_', ' ')} {factor * value:.1f} ± {factor * error:.1f} {unit}"
+            f"{name.replace('_', ' ')} {factor * value:z.1f} ± {factor * error:.1f} {unit}"
             for name, value, error, seen in zip(
                 NAMES, found.values, found.errors, found.observable, strict=True
             )

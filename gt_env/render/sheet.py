@@ -59,7 +59,7 @@ class Sheet:
         for i, name in enumerate(shown):
             cells = _estimate_cells(estimates[name], errors.get(name, (math.nan, math.nan)))
             self._column(canvas, _LABELS + (i + 2) * step, name[:10], colors[name], cells)
-        wheels = "  ".join(f"{speed:+.1f}" for speed in wheel_speeds)
+        wheels = "  ".join(f"{speed:+z.1f}" for speed in wheel_speeds)
         put_text(canvas, f"t {t:.2f} s", (9, self._row(9) + 4), height=8)
         if pan is not None:
             place = (self._width - 9, self._row(9) + 4)
@@ -78,7 +78,12 @@ class Sheet:
 
 
 def _pose_cells(pose: Pose2, yaw_valid: bool) -> list[str]:
-    return [f"{pose.x:.3f}", f"{pose.y:.3f}", f"{pose.yaw / DEG:.2f}" if yaw_valid else _DASH]
+    return [f"{pose.x:z.3f}", f"{pose.y:z.3f}", f"{pose.yaw / DEG:z.2f}" if yaw_valid else _DASH]
+
+
+def _small(value: float, digits: int, sign: str = "-") -> str:
+    """With one digit more below 1: 0.04 mm is not nothing."""
+    return f"{value:{sign}z.{digits + (abs(value) < 1)}f}"
 
 
 def _estimate_cells(estimate: PoseEstimate, error: tuple[float, float]) -> list[str]:
@@ -88,12 +93,12 @@ def _estimate_cells(estimate: PoseEstimate, error: tuple[float, float]) -> list[
     sigma = np.sqrt(np.diag(estimate.covariance).clip(min=0.0))
     known = np.diag(estimate.covariance) < NO_COVARIANCE
     sigmas = [
-        f"{s * unit:.{digits}f}"
+        _small(s * unit, digits)
         for s, unit, digits in zip(sigma, (1e3, 1e3, 1 / DEG), (1, 1, 2), strict=True)
     ]
     if not estimate.yaw_valid:
         known[2] = False
-    errors = [f"{error[0] * 1e3:.1f}", f"{error[1] / DEG:+.2f}"]
+    errors = [_small(error[0] * 1e3, 1), _small(error[1] / DEG, 2, "+")]
     return [
         *_pose_cells(estimate.pose, estimate.yaw_valid),
         *(text if ok else _DASH for text, ok in zip(sigmas, known, strict=True)),
