@@ -23,6 +23,7 @@ from benchmarks.output import check_writable
 from benchmarks.play.session import PlaySession
 from benchmarks.play.terminal import TerminalError, play_in_terminal, terminal_available
 from benchmarks.play.window import play_in_window
+from benchmarks.renderer import prepare_renderer
 from benchmarks.rollout import ARENA
 from estimators.protocol import METHODS
 from estimators.wrappers import GroundTruthWrapper
@@ -45,6 +46,7 @@ def play(
     require_one_of("--method", method, METHODS)
     settings = configuration(config, overrides)
     check_writable(out)
+    prepare_renderer(settings)  # the session's clock does not stand still for a compiler
     window = _window()
     try:
         session = PlaySession(_arena(settings, method, draws=window is not None), out)

@@ -10,6 +10,7 @@ import numpy as np
 from rich.console import Console
 
 from benchmarks.progress import tracked
+from benchmarks.renderer import prepare_renderer
 from benchmarks.scoring.judge import JudgedRun
 from benchmarks.scoring.live import score_live
 from benchmarks.scoring.recorded import score_files, score_recording
@@ -50,6 +51,7 @@ def carry_out(request: Request, *, jobs: int, engine: Engine, console: Console, 
         runs = _recorded(request, console)
     else:
         _check_wheels(request.subjects, request.settings())
+        prepare_renderer(request.settings())
         tasks = request.live_runs(folder)
         plans = [task.plan() for task in tasks]  # what does not fit is said here, not by a worker
         runs = run_side_by_side(

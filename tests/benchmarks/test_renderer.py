@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 from benchmarks import progress, renderer
 from benchmarks.cli import app
 from benchmarks.report.setup import versions
+from estimators.errors import ConfigError
 from gt_env.config import load_config
 
 FAST = load_config({"camera": {"renderer": "fast"}})
@@ -56,6 +57,35 @@ def test_an_evaluation_says_it_once_however_many_policies_drive(tmp_path, estima
     assert done.exit_code == 0, done.output
     assert done.stderr.count("gt-env[fast]") == lines
     assert "polar" in json.loads((tmp_path / "report.json").read_text())["policies"]
+
+
+@pytest.mark.usefixtures("without_numba")
+@pytest.mark.parametrize(
+    ("words", "work"),
+    [
+        (["bench"], "benchmarks.bench.run.run_bench"),
+        (["score", "odometry", "--config", "narrow"], "benchmarks.scoring.carry_out.run_side_by_side"),
+        (["train", "--estimate", "fused"], "benchmarks.commands.train._learn"),
+        (["validate", "--config", "narrow"], "benchmarks.validation.plan.run_validation"),
+        (["validate", "--only", "cameras", "--quick"], "benchmarks.validation.plan.run_validation"),
+    ],
+)
+def test_commands_say_it_before_they_begin(tmp_path, monkeypatch, words, work):
+    pytest.importorskip("pybullet")
+    if words[0] == "train":
+        pytest.importorskip("stable_baselines3")
+
+    def began(*_, **__):
+        print("began", file=sys.stderr)
+        raise ConfigError("enough")
+
+    monkeypatch.setattr(work, began)
+    done = CliRunner().invoke(app, [*words, "--out", str(tmp_path / "out")])
+
+    assert isinstance(done.exception, ConfigError)
+    said = done.stderr.splitlines()
+    assert [line for line in said if "gt-env[fast]" in line] == said[:1]
+    assert said[1] == "began"
 
 
 @pytest.mark.parametrize(("patience", "said"), [(0.02, ["compiling"]), (30.0, [])])
