@@ -1,5 +1,7 @@
 """What tests of training share."""
 
+import signal
+
 import pytest
 
 
@@ -10,3 +12,14 @@ def sb3():
     from benchmarks.training import sb3
 
     return sb3
+
+
+@pytest.fixture
+def signals_of_a_terminal():
+    """Signals as a terminal leaves them: a job in the background, or under `nohup`, ignores some from the start."""
+    usual = {"SIGINT": signal.default_int_handler, "SIGTERM": signal.SIG_DFL, "SIGHUP": signal.SIG_DFL}
+    numbers = {getattr(signal, name): answer for name, answer in usual.items() if hasattr(signal, name)}
+    before = {number: signal.signal(number, answer) for number, answer in numbers.items()}
+    yield
+    for number, answer in before.items():
+        signal.signal(number, answer)

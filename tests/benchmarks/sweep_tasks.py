@@ -24,7 +24,7 @@ def misbehave(task, on_step):
         os._exit(7)
     if task == "sleep":
         Path(os.environ["TELL"], str(os.getpid())).touch()
-        time.sleep(60)
+        time.sleep(600)
     return task
 
 

@@ -95,7 +95,7 @@ def test_a_cluster_that_does_not_answer_is_given_up(monkeypatch, installed, name
     start = time.monotonic()
     with listening() as address, pytest.raises(ClusterError, match=f"no {name} cluster answered within 1 s"):
         engines._ask(name, address)
-    assert time.monotonic() - start < 10
+    assert time.monotonic() - start < 40  # not the 60 s that the other side sleeps
 
 
 @pytest.mark.parametrize("name", ["ray", "dask"])

@@ -9,21 +9,10 @@ import pytest
 
 from benchmarks.interrupts import interrupts_raised
 
-pytestmark = pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="needs the signals of POSIX")
-
-
-@pytest.fixture(autouse=True)
-def _as_from_a_terminal():
-    """Signals as a terminal leaves them: a job in the background, or under `nohup`, ignores some from the start."""
-    usual = {
-        signal.SIGINT: signal.default_int_handler,
-        signal.SIGTERM: signal.SIG_DFL,
-        signal.SIGHUP: signal.SIG_DFL,
-    }
-    before = {number: signal.signal(number, answer) for number, answer in usual.items()}
-    yield
-    for number, answer in before.items():
-        signal.signal(number, answer)
+pytestmark = [
+    pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="needs the signals of POSIX"),
+    pytest.mark.usefixtures("signals_of_a_terminal"),
+]
 
 
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
@@ -64,7 +53,7 @@ def test_an_interrupt_that_could_not_be_raised_is_not_lost(capsys):
 
     def work():
         things.clear()
-        time.sleep(5.0)
+        time.sleep(60.0)
 
     with pytest.raises(KeyboardInterrupt), interrupts_raised():
         work()
@@ -85,10 +74,10 @@ def test_other_errors_that_cannot_be_raised_are_said_as_ever(monkeypatch):
 
 def test_a_forked_process_ends_as_it_would_have():
     with interrupts_raised():
-        child = multiprocessing.get_context("fork").Process(target=time.sleep, args=(30.0,))
+        child = multiprocessing.get_context("fork").Process(target=time.sleep, args=(120.0,))
         child.start()
         time.sleep(0.2)
         child.terminate()
-        child.join(10.0)
+        child.join(60.0)
 
     assert child.exitcode == -signal.SIGTERM

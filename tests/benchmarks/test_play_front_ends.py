@@ -5,14 +5,13 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 from types import SimpleNamespace
 from unittest.mock import Mock
 
 import pytest
 import typer
-from play_arena import STEP, FakeArena, files
+from play_arena import FakeArena, files
 
 from benchmarks.commands import play as command
 from benchmarks.play.session import PlaySession
@@ -61,8 +60,10 @@ def test_playing_in_a_window(session):
 def play_in_a_pseudo_terminal(keys, folder):
     """Play in a process whose terminal is ours to type on; what it showed, and its exit status."""
     terminal, its_end = os.openpty()
+    steps, its_steps = os.pipe()
     child = subprocess.Popen(
-        [sys.executable, __file__, str(folder)],
+        [sys.executable, __file__, str(folder), str(its_steps)],
+        pass_fds=[its_steps],
         stdin=its_end,
         stdout=its_end,
         stderr=its_end,
@@ -72,30 +73,46 @@ def play_in_a_pseudo_terminal(keys, folder):
         env=os.environ | {"TERM": "xterm", "COLUMNS": "90", "LINES": "30"},
     )
     os.close(its_end)
+    os.close(its_steps)
     shown, typed = b"", False
     try:
         while chunk := os.read(terminal, 65536):
             shown += chunk
             if not typed and b"q quit" in shown:
                 for key in keys:
-                    time.sleep(5 * STEP)
                     os.write(terminal, key)
+                    os.read(steps, 65536)
+                    for _ in range(3):  # the key was heard in one of these, however slow the machine is
+                        os.read(steps, 1)
                 typed = True
     except OSError:  # how Linux says that the child has closed its end
         pass
     finally:
         os.close(terminal)
-    return shown.decode(errors="replace"), child.wait(timeout=30)
+        os.close(steps)
+    return shown.decode(errors="replace"), child.wait(timeout=120)
 
 
-def play_in_this_terminal(folder):
+class TellingArena(FakeArena):
+    """Writes a byte at each step."""
+
+    def __init__(self, where):
+        super().__init__()
+        self.where = where
+
+    def step(self, action):
+        os.write(self.where, b".")
+        return super().step(action)
+
+
+def play_in_this_terminal(folder, steps):
     """What that process does."""
     import fcntl
     import termios
 
     fcntl.ioctl(0, termios.TIOCSCTTY, 0)  # so that Ctrl-C typed on it interrupts
     try:
-        command._play(PlaySession(FakeArena(), folder), seed=0, window=None)
+        command._play(PlaySession(TellingArena(steps), folder), seed=0, window=None)
     except typer.Exit as error:
         sys.exit(error.exit_code)
 
@@ -156,4 +173,4 @@ def test_the_window_is_closed_when_the_session_cannot_start(monkeypatch, tmp_pat
 
 
 if __name__ == "__main__":
-    play_in_this_terminal(Path(sys.argv[1]))
+    play_in_this_terminal(Path(sys.argv[1]), int(sys.argv[2]))

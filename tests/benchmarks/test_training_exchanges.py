@@ -11,13 +11,7 @@ import pytest
 from benchmarks.interrupts import interrupts_raised
 from benchmarks.training.exchanges import EXCHANGES, EnvironmentDiedError, whole
 
-
-@pytest.fixture(autouse=True)
-def _as_from_a_terminal():
-    """A job in the background is started to ignore Ctrl-C."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
+pytestmark = pytest.mark.usefixtures("signals_of_a_terminal")
 
 
 class Asked:

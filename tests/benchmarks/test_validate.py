@@ -62,10 +62,11 @@ def test_an_output_folder_that_is_a_file_is_refused_before_anything_is_simulated
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(900)
 def test_quick_run_ends_with_the_path_of_a_complete_report_whatever_the_number_of_jobs(tmp_path):
     out = tmp_path / "out"
     run = gt_env("--quick", "--config", "simtwo", "--jobs", "2", "--out", str(out))
-    printed, _ = run.communicate(timeout=200)
+    printed, _ = run.communicate(timeout=400)
     assert run.returncode == 0, printed
     assert printed.rstrip().splitlines()[-1] == str(out / "report.html")
     for title in ("table 5.2", "table 5.3", "Moving target", "data sheets"):
@@ -80,7 +81,7 @@ def test_quick_run_ends_with_the_path_of_a_complete_report_whatever_the_number_o
     alone = gt_env(
         "--quick", "--config", "simtwo", "--jobs", "1", "--no-figures", "--out", str(tmp_path / "alone")
     )
-    printed, _ = alone.communicate(timeout=200)
+    printed, _ = alone.communicate(timeout=400)
     assert alone.returncode == 0, printed
     assert (tmp_path / "alone/report.json").read_bytes() == (out / "report.json").read_bytes()
 
@@ -99,7 +100,7 @@ def test_ctrl_c_ends_promptly_and_leaves_nothing_half_written(tmp_path):
             break  # the sweep is under way: both processes have had a run
         time.sleep(0.2)
     os.killpg(run.pid, signal.SIGINT)
-    printed, _ = run.communicate(timeout=20)
+    printed, _ = run.communicate(timeout=100)
     assert run.returncode == 130
     assert "Traceback" not in printed
     assert not out.exists()
