@@ -12,8 +12,6 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from benchmarks.bench.rows import GROUPS, Row
 from benchmarks.figures.style import REAL, WIDTH, new_figure
 
-WORSE = "#c9792b"
-"""Of bars below 1: slower than what it is compared with."""
 BAR = 0.17
 """Height that a bar takes [in]."""
 
@@ -36,8 +34,7 @@ def _draw(ax: Axes, rows: Sequence[Row]) -> None:
     place = np.arange(len(rows))
     median, low, high = np.array([(r.ratio.median, r.ratio.low, r.ratio.high) for r in rows]).T
     is_cost = rows[0].group == "cost"
-    colors = [WORSE if not is_cost and m < 0.95 else REAL for m in median]
-    ax.barh(place, median - 1, left=1, height=0.62, color=colors, alpha=0.85)
+    ax.barh(place, median - 1, left=1, height=0.62, color=REAL, alpha=0.85)
     whiskers = np.maximum([median - low, high - median], 0)
     ax.errorbar(median, place, xerr=whiskers, fmt="none", ecolor="#222222", elinewidth=0.8, capsize=1.8)
     ax.set_xscale("log")

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from benchmarks.calibration.of_recording import SHOWN, CalibrationRun
 from benchmarks.figures.style import ESTIMATED, REAL, WIDTH, legend_above, new_figure
@@ -68,10 +71,10 @@ def draw_quantities(ax: Axes, run: CalibrationRun, unit: str) -> None:
     places = [i for i, q in enumerate(QUANTITIES) if q.unit == unit]
     found = run.found
     rows = np.arange(len(places))
-    ax.axvline(0.0, color="#555555", lw=0.8)
+    ax.axvline(0.0, color="#9a9ca3", lw=0.8, ls=(0, (4, 2)))
     if run.true is not None:
         error = factor * (run.true - found.believed)[places]
-        ax.plot(error, rows, "|", ms=13, mew=1.6, color=REAL, label="simulated", zorder=2)
+        ax.plot(error, rows, "D", ms=8, mew=1.2, mfc="none", color=REAL, label="simulated", zorder=4)
     seen = found.observed[places]
     shift = factor * (found.values - found.believed)[places]
     three = 3 * factor * found.standard_errors[places]
@@ -85,10 +88,17 @@ def draw_quantities(ax: Axes, run: CalibrationRun, unit: str) -> None:
     ax.set_ylim(len(places) - 0.5, -0.5)
     ax.set_xlabel(f"{GROUPS[unit]}: found less believed [{shown}]")
     ax.margins(x=0.12)
+    ax.xaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
     for row, place in enumerate(places):
         if found.observed[place]:
-            text = f"{shift[row]:+.2f} ± {three[row]:.2f}"
+            text = measured(float(shift[row]), float(three[row]))
             ax.text(1.01, row, text, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5)
+
+
+def measured(value: float, spare: float) -> str:
+    """A value and what it may be off by, to two significant digits of that."""
+    decimals = max(0, 1 - math.floor(math.log10(spare))) if spare > 0 else 2
+    return f"{value:+z.{decimals}f} ± {spare:.{decimals}f}"
 
 
 def _limit(ax: Axes, before: Array, after: Array) -> None:

@@ -15,6 +15,8 @@ ROW = 0.26
 """Height that a row takes [in]."""
 APART = 0.16
 """Between the dots of two methods [rows]."""
+PANELS_APART = 0.1
+"""Space between panels [their width], so that the last tick's label of one does not touch the first of the next."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,6 +41,7 @@ class Panel:
 def compared_figure(rows: Sequence[str], panels: Sequence[Panel], colors: Mapping[str, str]) -> Figure:
     """The panels beside one another."""
     figure, axes = new_figure(WIDTH, ROW * len(rows) + 0.8, columns=len(panels), sharey=True)
+    figure.set_layout_engine("constrained", wspace=PANELS_APART)
     for ax, panel in zip(axes, panels, strict=True):
         draw_panel(ax, panel, colors)
     axes[0].set_yticks(range(len(rows)), rows)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from benchmarks.figures.style import PUBLISHED, WIDTH, new_figure
 from benchmarks.validation.consistency import LEVELS, PARTS, Consistency, Whiteness
@@ -20,7 +21,7 @@ LEAST, MOST = 0.1, 5.0
 
 def consistency_figure(judged: Judged, colors: Mapping[str, str]) -> Figure:
     """NEES a degree of freedom with the bounds of an honest method, and the coverage of the ellipses."""
-    figure, axes = new_figure(WIDTH, 2.9, columns=4, width_ratios=[1, 1, 1, 1.25], sharey=True)
+    figure, axes = new_figure(WIDTH, 3.15, columns=4, width_ratios=[1, 1, 1, 1.25], sharey=True)
     rows = [(situation, method) for situation, of in judged.items() for method in of]
     for ax, (name, part) in zip(axes, PARTS.items(), strict=False):
         draw_nees(ax, [judged[s][m] for s, m in rows], name, [colors[m] for _, m in rows])
@@ -28,6 +29,13 @@ def consistency_figure(judged: Judged, colors: Mapping[str, str]) -> Figure:
     draw_coverage(axes[3], [judged[s][m] for s, m in rows], [colors[m] for _, m in rows])
     axes[0].set_yticks(range(len(rows)), [f"{s}, {m}" for s, m in rows])
     axes[0].set_ylim(len(rows) - 0.5, -0.5)
+    handles = [
+        Line2D([], [], ls="none", marker="o", ms=5, color=PUBLISHED, label="mean over runs, or share inside"),
+        Line2D([], [], ls="none", marker="|", ms=9, mew=1.2, color=PUBLISHED, label="mean over all samples"),
+        Line2D([], [], color="#c9ccd2", lw=7, label="an honest method's"),
+        Line2D([], [], color=PUBLISHED, lw=0.8, ls=(0, (4, 2)), label="expected"),
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=4, fontsize=7)
     return figure
 
 
@@ -57,11 +65,13 @@ def draw_coverage(ax: Axes, rows: list[Consistency], colors: list[str]) -> None:
     """Share of samples inside each ellipse, with two standard errors."""
     for i, (row, color) in enumerate(zip(rows, colors, strict=True)):
         for covered in row.coverage:
+            share = 100 * covered.share
             spare = 200 * covered.deviation if np.isfinite(covered.deviation) else 0.0
-            ax.errorbar(100 * covered.share, i, xerr=spare, fmt="o", color=color, ms=4, lw=1.0)
+            reach = [[min(spare, share)], [min(spare, 100 - share)]]  # no share is beyond all or nothing
+            ax.errorbar(share, i, xerr=reach, fmt="o", color=color, ms=4, lw=1.0)
     for level in LEVELS:
         ax.axvline(100 * level, color=PUBLISHED, lw=0.8, ls=(0, (4, 2)))
-    ax.set_xlim(0, 102)
+    ax.set_xlim(0, 105)
     ax.set_title("inside ellipse [%]", fontsize=7.5)
     ax.grid(visible=False, axis="y")
 

@@ -36,9 +36,9 @@ def map_figure(drive: Rollout, room: Room) -> Figure:
 def draw_ways(ax: Axes, drive: Rollout) -> None:
     """Lines of the real and the estimated coordinates."""
     ax.plot(*drive.true_pose[:, :2].T, color=REAL, lw=1.4, label="real", zorder=3)
-    for index, (name, track) in enumerate(drive.tracks.items()):
+    for name, track in drive.tracks.items():
         said = np.where(track.valid[:, None], track.gt_pose[:, :2], np.nan)
-        ax.plot(*said.T, color=method_color(index), lw=0.9, label=f"estimated ({name})", zorder=4)
+        ax.plot(*said.T, color=method_color(name), lw=0.9, label=f"estimated ({name})", zorder=4)
     start = (float(drive.true_pose[0, 0]), float(drive.true_pose[0, 1]))
     ax.plot(*start, "o", color=REAL, ms=5, zorder=5)
     ax.annotate("start", start, (5, 5), textcoords="offset points", color=REAL, fontsize=8)
@@ -69,10 +69,10 @@ def spin_figure(drive: Rollout) -> Figure:
 def draw_coordinate(ax: Axes, drive: Rollout, column: Column) -> None:
     """Real and estimated coordinate over time."""
     ax.plot(drive.t, _shown(drive.true_pose[:, column], column), color=REAL, lw=1.4, label="real")
-    for index, (name, track) in enumerate(drive.tracks.items()):
+    for name, track in drive.tracks.items():
         # Drawn as real plus error: at 180 deg an angle then stays beside the real one.
         said = _shown(track.true_pose[:, column], column) + errors(track)[:, column] * TO_SHOWN[column]
-        ax.plot(track.stamp, said, color=method_color(index), lw=0.9, label=f"estimated ({name})")
+        ax.plot(track.stamp, said, color=method_color(name), lw=0.9, label=f"estimated ({name})")
     ax.set_ylabel(NAMES[column])
     ax.set_xlim(drive.t[0], drive.t[-1])
     if column == 2:
@@ -81,9 +81,9 @@ def draw_coordinate(ax: Axes, drive: Rollout, column: Column) -> None:
 
 def draw_error(ax: Axes, drive: Rollout, column: Column) -> None:
     """Absolute error over time."""
-    for index, track in enumerate(drive.tracks.values()):
+    for name, track in drive.tracks.items():
         error = np.abs(errors(track)[:, column]) * TO_ERROR_UNIT[column]
-        ax.plot(track.stamp, error, color=method_color(index), lw=0.9)
+        ax.plot(track.stamp, error, color=method_color(name), lw=0.9)
     ax.set_ylabel(ERROR_NAMES[column])
     ax.set_ylim(bottom=0)
 
@@ -91,17 +91,17 @@ def draw_error(ax: Axes, drive: Rollout, column: Column) -> None:
 def draw_error_over_angle(ax: Axes, drive: Rollout) -> None:
     """Error of the angle over the real angle, and its mean in bins; a grid line where markers take turns."""
     edges = np.arange(0, 361, BIN_DEG)
-    for index, track in enumerate(drive.tracks.values()):
+    for name, track in drive.tracks.items():
         turning = np.abs(np.gradient(np.unwrap(track.true_pose[:, 2]))) > 0
         error = errors(track)[:, 2] / DEG
         seen = turning & ~np.isnan(error)
         angle = np.mod(track.true_pose[seen, 2] / DEG, 360)
-        ax.plot(angle, error[seen], ".", ms=3, alpha=0.35, color=method_color(index), mew=0)
+        ax.plot(angle, error[seen], ".", ms=3, alpha=0.35, color=method_color(name), mew=0)
         counts = np.histogram(angle, edges)[0]
         sums = np.histogram(angle, edges, weights=error[seen])[0]
         filled = counts > 0
         middles = 0.5 * (edges[1:] + edges[:-1])
-        ax.plot(middles[filled], sums[filled] / counts[filled], color=method_color(index), lw=1.5)
+        ax.plot(middles[filled], sums[filled] / counts[filled], color=method_color(name), lw=1.5)
     ax.axhline(0.0, color="#555555", lw=0.7)
     ax.set_xlim(0, 360)
     ax.set_xticks(np.arange(30, 361, 60))

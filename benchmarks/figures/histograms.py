@@ -50,13 +50,12 @@ def draw_histogram(
     width *= max(1, round(2 * half / width / MOST_BINS))
     first, last = np.floor((middle - half) / width), np.ceil((middle + half) / width)
     edges = (np.arange(first, last + 2) - 0.5) * width  # centred on the multiples of the width
-    for index, (name, deviations) in enumerate(values.items()):
-        color = method_color(index)
+    for name, deviations in values.items():
         ax.hist(
             deviations,
             edges.tolist(),
             histtype="stepfilled",
-            color=color,
+            color=method_color(name),
             alpha=0.75,
             lw=0.6,
             label=f"method {name}",

@@ -21,7 +21,17 @@ from estimators.poses import Array
 REAL = "#1f4fc4"
 """What really was: blue, as in the thesis."""
 ESTIMATED = ("#d3222a", "#e08a00", "#16854a", "#7b3fb5")
-"""What the methods said, in their order: the first is red, as in the thesis."""
+"""What was said, by whomever: the first is red, as in the thesis."""
+METHOD_COLORS = {
+    "thesis": ESTIMATED[0],
+    "fused": ESTIMATED[1],
+    "smooth": ESTIMATED[2],
+    "lrf": ESTIMATED[3],
+    "smooth-lrf": "#1795a8",
+}
+"""One colour for each ground-truth method, the same in all figures; that of `thesis` is red, as in the thesis."""
+OTHER_METHOD = "#8a6a4a"
+"""Of a method that is none of these."""
 PUBLISHED = "#4a4a4a"
 """What others published."""
 WIDTH = 6.4
@@ -83,9 +93,9 @@ def save_png(figure: Figure, path: Path) -> None:
         figure.savefig(path, metadata={"Software": None})
 
 
-def method_color(index: int) -> str:
-    """Colour of a method by its place among the methods."""
-    return ESTIMATED[index % len(ESTIMATED)]
+def method_color(method: str) -> str:
+    """Colour of a method, whichever others it is shown beside."""
+    return METHOD_COLORS.get(method, OTHER_METHOD)
 
 
 def legend_above(axes: Axes, columns: int) -> None:

@@ -79,7 +79,7 @@ def robot_plates(robots: RobotScores) -> Iterator[Plate]:
 
 
 def _colors(methods: Sequence[str]) -> dict[str, str]:
-    return {m: method_color(i) for i, m in enumerate(methods)}
+    return {m: method_color(m) for m in methods}
 
 
 def _panels(

@@ -45,7 +45,7 @@ def further_plates(validation: Validation, scores: Scores) -> Iterator[Plate]:
             draw=partial(map_figure, validation.moving[EIGHT], config.room.in_station_frame()),
         )
     yield from _band_plates(validation)
-    colors = {m: method_color(i) for i, m in enumerate(scores.methods)}
+    colors = {m: method_color(m) for m in scores.methods}
     if any(scores.consistency.values()):
         yield Plate(
             name="consistency",
@@ -64,9 +64,7 @@ def further_plates(validation: Validation, scores: Scores) -> Iterator[Plate]:
             repeats="",
             caption="Autocorrelation of the innovations of robots that drive about at random. Grey: what chance alone "
             "exceeds once in 500 times.",
-            draw=partial(
-                whiteness_figure, scores.whiteness, {m: colors.get(m, "#333333") for m in scores.whiteness}
-            ),
+            draw=partial(whiteness_figure, scores.whiteness, {m: method_color(m) for m in scores.whiteness}),
         )
 
 
@@ -88,6 +86,6 @@ def _band_plates(validation: Validation) -> Iterator[Plate]:
                     band_figure,
                     validation.moving[drive],
                     stating,
-                    [method_color(list(tracks).index(m)) for m in stating],
+                    [method_color(m) for m in stating],
                 ),
             )
