@@ -24,6 +24,9 @@ STATION: Final = "station/"
 MAX_TRUTH_GAP: Final = 0.1
 """True poses farther apart than this are not interpolated [s]: the recording was paused there."""
 
+STANDSTILL: Final = 0.30
+"""A robot whose answers stay within this has not driven [m]."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class Replay:
@@ -43,6 +46,12 @@ class Replay:
     def errors(self) -> Array:
         """Gt less true (N, 3): x, y [m], yaw [rad]; NaN where truth, position or yaw is not known."""
         return metrics.errors(self.track)
+
+
+def at_rest(valid: Sequence[PoseEstimate]) -> bool:
+    """Whether valid answers stay within `STANDSTILL`."""
+    extent = np.ptp([(e.pose.x, e.pose.y) for e in valid], axis=0) if valid else np.array([np.inf])
+    return bool(extent.max() < STANDSTILL)
 
 
 def answers(messages: Iterable[Message], estimator: Estimator) -> list[PoseEstimate]:

@@ -24,7 +24,7 @@ from benchmarks.figures.map import (
 )
 from benchmarks.figures.style import legend_above, paper
 from benchmarks.recording.recording import Recording
-from benchmarks.replay import Replay
+from benchmarks.replay import Replay, at_rest
 from estimators.calibration import Calibration
 from estimators.messages import LaserScan, PoseEstimate
 from estimators.poses import Array
@@ -32,8 +32,6 @@ from estimators.thesis.zone import K_SIGMA, acceptance_zone
 
 FEW = 200
 """Up to so many answers each gets a dot; more would hide the truth behind them."""
-STANDSTILL = 0.30
-"""A track within this [m] is shown enlarged: on the map of the room it is a dot."""
 
 
 def replay_figure(recording: Recording, replay: Replay, calibration: Calibration) -> Figure:
@@ -49,10 +47,11 @@ def replay_figure(recording: Recording, replay: Replay, calibration: Calibration
     scans = recording.messages.of_source("station/").of_type(LaserScan)
     scan = scans[-1] if scans else None
     with paper():
-        at_rest = _at_rest(valid)
-        figure = Figure(figsize=(9.0, 5.4) if at_rest else (9.4, 4.4), layout="constrained")
+        # On the map of the room a robot at rest is a dot: it is shown enlarged.
+        enlarged = at_rest(valid)
+        figure = Figure(figsize=(9.0, 5.4) if enlarged else (9.4, 4.4), layout="constrained")
         columns = figure.add_gridspec(1, 2, width_ratios=(1.3, 1.0))
-        if at_rest:
+        if enlarged:
             parts = columns[0].subgridspec(2, 1)
             draw_map(figure.add_subplot(parts[0]), recording, valid, scan, calibration)
             draw_detail(figure.add_subplot(parts[1]), recording, valid, scan, calibration)
@@ -71,11 +70,6 @@ def replay_figure(recording: Recording, replay: Replay, calibration: Calibration
             title += ": position only, no marker was seen"
         figure.suptitle(title, fontsize=10)
     return figure
-
-
-def _at_rest(valid: list[PoseEstimate]) -> bool:
-    extent = np.ptp([(e.pose.x, e.pose.y) for e in valid], axis=0) if valid else np.array([np.inf])
-    return bool(extent.max() < STANDSTILL)
 
 
 def draw_map(
@@ -175,7 +169,7 @@ def draw_series(ax: Axes, valid: list[PoseEstimate], truth: Array, name: str) ->
     ax.fill_between(stamps, low, high, color=GT, alpha=0.12, linewidth=0, label="95 % as stated")
     marker = "." if len(known) <= FEW else ""
     ax.plot(stamps, scale * values, color=GT, linewidth=0.9, marker=marker, markersize=3, label="gt")
-    if len(known) and _at_rest(valid):
+    if len(known) and at_rest(valid):
         ax.axhline(scale * float(values.mean()), color=QUIET, linewidth=0.8, linestyle=":", zorder=1)
     ax.ticklabel_format(useOffset=False)  # 1.998, not 0.002 and a +1.996 in the corner
     low, high = ax.get_ylim()

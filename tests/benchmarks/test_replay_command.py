@@ -10,9 +10,12 @@ from typer.testing import CliRunner
 
 from benchmarks.commands import options
 from benchmarks.commands.replay import replay as command
-from benchmarks.recording import RecordingWriter, ScanLog
-from estimators import RecordingError
+from benchmarks.recording import MessageLog, Recording, RecordingWriter, ScanLog
+from benchmarks.replay import Replay, track
+from benchmarks.report.replay import summary
+from estimators import Pose2, PoseEstimate, RecordingError
 from estimators.errors import ConfigError, MissingExtraError
+from estimators.poses import wrap_angle
 from gt_env.config import load_config
 
 
@@ -38,6 +41,7 @@ def test_command_on_a_text_log(tmp_path, cli):
         "gt.csv",
         "gt.tum",
         "replay.png",
+        "report.html",
         "report.json",
     ]
     tum = np.loadtxt(tmp_path / "out" / "gt.tum")
@@ -47,7 +51,13 @@ def test_command_on_a_text_log(tmp_path, cli):
     report = json.loads((tmp_path / "out" / "report.json").read_text())
     assert report["measurements"] == {"scans": 20, "frames": 0, "sightings": 0}
     assert report["gt"]["mean"][2] is None
+    assert report["gt"]["mean"][1] == pytest.approx(2.0, abs=0.002)
     assert report["gt_vs_true"] is None
+    assert "--rate 5" in report["setup"]["command"]
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert report["setup"]["command"] in page
+    assert page.count("data:image/png;base64,") == 1
+    assert result.output.rstrip().endswith(str(tmp_path / "out" / "report.html"))
 
 
 def test_command_on_a_recording_believes_what_was_recorded(tmp_path, cli):
@@ -62,11 +72,30 @@ def test_command_on_a_recording_believes_what_was_recorded(tmp_path, cli):
     told = (tmp_path / "run.mcap", "--method", "thesis")
     assert cli(*told, "--out", tmp_path / "a").exit_code == 0
     assert cli(*told, "--config", "thesis", "--out", tmp_path / "b").exit_code == 0
-    mean_y = [json.loads((tmp_path / d / "report.json").read_text())["gt"]["mean"][1] for d in "ab"]
+    mean_y = [np.loadtxt(tmp_path / d / "gt.tum")[:, 2].mean() for d in "ab"]
     assert mean_y[0] - mean_y[1] == pytest.approx(0.05, abs=0.005)
     report = json.loads((tmp_path / "b" / "report.json").read_text())
     assert 10 < report["gt_vs_true"]["rmse_xy_mm"] < 60  # the moving average lags
     assert (tmp_path / "b" / "true.tum").exists()
+    assert report["gt"]["mean"] == report["gt"]["std"] == [None] * 3  # it drives
+    assert report["gt"]["largest"][0] > report["gt"]["least"][0] + 0.3
+
+
+@pytest.mark.parametrize(("turn", "named"), [(0.05, True), (2 * np.pi, False)])
+def test_a_yaw_has_a_mean_unless_the_robot_turns(turn, named):
+    yaws = wrap_angle(np.pi + np.linspace(-0.5, 0.5, 50) * turn)
+    estimates = [
+        PoseEstimate(stamp=i / 10, pose=Pose2(x=1.0, y=2.0, yaw=a), covariance=np.eye(3))
+        for i, a in enumerate(yaws.tolist())
+    ]
+    result = Replay(
+        method="fused", estimates=tuple(estimates), track=track(estimates, np.empty((0, 4)), True)
+    )
+    gt = summary(Recording(origin="run", messages=MessageLog([])), result, load_config("thesis"), "")["gt"]
+    assert gt["mean"][:2] == [1.0, 2.0]
+    assert (gt["mean"][2] is not None) is (gt["std"][2] is not None) is named
+    if named:
+        assert abs(gt["mean"][2]) == pytest.approx(180.0)
 
 
 def test_command_without_figures_needs_no_plotting_package(tmp_path, cli, monkeypatch):
