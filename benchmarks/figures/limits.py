@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from benchmarks.figures.map import CHI2_95, draw_room, draw_station
-from benchmarks.figures.style import PUBLISHED, REAL, WIDTH, legend_above, method_color, new_figure
+from benchmarks.figures.style import PUBLISHED, REAL, WIDTH, legend_above, new_figure
 from benchmarks.report.scores import MM, ScanScore
 from estimators.calibration import Calibration
 from estimators.poses import Array
@@ -31,8 +31,9 @@ def limit_figure(
         place = float(middle[0]), float(middle[1])
         depth = draw_enlarged(ax, middle, limit, fill=True, color=REAL, label="limit" if i == 0 else None)
         reached = "reached by one scan" if i == 0 else None
-        color = method_color("lrf")
-        depth = max(depth, draw_enlarged(ax, middle, found.spread, fill=False, color=color, label=reached))
+        depth = max(
+            depth, draw_enlarged(ax, middle, found.spread, fill=False, color=PUBLISHED, label=reached)
+        )
         ax.annotate(
             f"{point}  {found.limit.rmse * MM:.1f} mm", (place[0], place[1] - depth), (0, -2),
             textcoords="offset points", ha="center", va="top", fontsize=7.5,
