@@ -12,7 +12,7 @@ from rich.console import Console
 
 from benchmarks.sweeps.parallel import StepCounter, SweepError, run_side_by_side
 
-sys.path.insert(0, str(Path(__file__).parent))  # joblib's processes get it from here
+sys.path.insert(0, str(Path(__file__).parents[1]))  # joblib's processes get it from here
 from sweep_tasks import draw, ignores_ctrl_c, misbehave
 
 

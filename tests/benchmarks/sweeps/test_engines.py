@@ -21,7 +21,7 @@ from benchmarks.sweeps.engines import ClusterError, Engine
 from benchmarks.sweeps.parallel import SweepError, run_side_by_side
 from estimators.errors import ConfigError, MissingExtraError
 
-sys.path.insert(0, str(Path(__file__).parent))  # the cluster's processes get it from here
+sys.path.insert(0, str(Path(__file__).parents[1]))  # the cluster's processes get it from here
 from sweep_tasks import draw, misbehave
 
 TOKEN = secrets.token_hex(32)

@@ -13,7 +13,7 @@ pytest.importorskip("pybullet")
 
 from benchmarks.__main__ import main
 
-TUTORIAL = Path(__file__).parents[2] / "docs" / "your_localizer.md"
+TUTORIAL = Path(__file__).parents[3] / "docs" / "your_localizer.md"
 PARTS = {"gt_vs_true", "estimate_vs_gt", "estimate_vs_true", "ratios", "verdicts", "nees", "availability"}
 SHORT = (
     "--duration",
@@ -89,7 +89,7 @@ def test_the_tutorial_runs_as_it_stands(command, tmp_path):
 
 @pytest.mark.slow
 def test_a_planted_clock_offset_and_lever_arm_are_found_on_the_figure_of_eight(command, tmp_path):
-    shutil.copy(Path(__file__).parent / "score_subjects.py", tmp_path / "planted_elsewhere.py")
+    shutil.copy(Path(__file__).parents[1] / "score_subjects.py", tmp_path / "planted_elsewhere.py")
     status, said = command(
         "score", "it=planted_elsewhere:Elsewhere", "--path", "eight", "--seeds", "1", "--duration", "60",
         "--jobs", "1", "--no-figures",

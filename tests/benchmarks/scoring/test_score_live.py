@@ -23,7 +23,7 @@ from benchmarks.trajectory.tum import write_tum
 from estimators.errors import ConfigError, RecordingError
 from gt_env.config import load_config
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 SMALL = {"camera.width": 160, "camera.height": 120}
 """Fewer pixels: what is tested here does not depend on them."""
 

@@ -70,7 +70,8 @@ def play_in_a_pseudo_terminal(keys, folder):
         start_new_session=True,
         # A shell gives what it starts in a terminal the signals' usual answers, however these tests were started.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
-        env=os.environ | {"TERM": "xterm", "COLUMNS": "90", "LINES": "30"},
+        env=os.environ
+        | {"TERM": "xterm", "COLUMNS": "90", "LINES": "30", "PYTHONPATH": os.pathsep.join(sys.path)},
     )
     os.close(its_end)
     os.close(its_steps)
