@@ -18,7 +18,7 @@ AGAIN: Final = 0.05
 
 
 HELD: Final = 30.0
-"""Longer than this no interrupt waits for what must not be torn apart: that hangs [s]."""
+"""How long what must not be torn apart may take; an interrupt that has waited so long is sent again [s]."""
 
 
 class _Hold:
@@ -32,12 +32,32 @@ class _Hold:
     def __init__(self) -> None:
         self.since: float | None = None
         self.late = False
+        self._again: threading.Timer | None = None
+
+    def begin(self) -> None:
+        """From now on interrupts wait."""
+        self.late = False
+        self.since = time.monotonic()
+
+    def end(self) -> bool:
+        """No more; whether one waited."""
+        self.since = None
+        if self._again is not None:
+            self._again.cancel()
+            self._again = None
+        return self.late
 
     def takes(self) -> bool:
         """Whether an interrupt that comes now has to wait; it is then kept."""
-        held = self.since is not None and time.monotonic() - self.since < HELD
-        self.late = self.late or held
-        return held
+        if self.since is None:
+            return False
+        left = self.since + HELD - time.monotonic()
+        if left > 0 and not self.late:
+            self.late = True
+            self._again = threading.Timer(left, os.kill, (os.getpid(), signal.SIGINT))
+            self._again.daemon = True
+            self._again.start()
+        return left > 0
 
 
 _hold = _Hold()
@@ -54,12 +74,10 @@ def interrupts_held() -> Iterator[None]:
         yield
         return
     try:
-        _hold.since = time.monotonic()
+        _hold.begin()
         yield
     finally:
-        _hold.since = None
-        late, _hold.late = _hold.late, False
-        if late:
+        if _hold.end():
             raise KeyboardInterrupt
 
 

@@ -55,7 +55,12 @@ def _whole(ask: Callable[..., Any]) -> Callable[..., Any]:
             try:
                 return ask(*args, **kwargs)
             except (EOFError, ConnectionError):
-                raise EnvironmentDiedError("a process of the environments died: too little memory?") from None
+                # Of the others some have answered and some have not: to close them in order would wait for ever.
+                for process in getattr(args[0], "processes", ()):
+                    process.terminate()
+                raise EnvironmentDiedError(
+                    "a process of the environments died; why stands above, or the system took its memory"
+                ) from None
 
     return asked
 

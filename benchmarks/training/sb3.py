@@ -63,12 +63,15 @@ class _Watch(BaseCallback):
 class _Curve(EvalCallback):
     """Drives the same episodes now and then and keeps the best policy; a training that goes on continues the curve."""
 
-    def __init__(self, env: VecEnv, folder: Path, run: Run) -> None:
+    def __init__(self, env: VecEnv, folder: Path, run: Run, resume: bool) -> None:
         settings = run.settings
-        every = max(1, settings.evaluate_every // settings.environments)
-        episodes = settings.evaluate_episodes
-        super().__init__(env, n_eval_episodes=episodes, eval_freq=every, log_path=str(folder), verbose=0)
+        every, episodes = settings.evaluate_every // settings.environments, settings.evaluate_episodes
+        super().__init__(
+            env, n_eval_episodes=episodes, eval_freq=max(1, every), log_path=str(folder), verbose=0
+        )
         self._folder, self._seed = folder, run.seed + EVALUATION_SEED
+        if not resume:  # a training that never got to a checkpoint may have left its own
+            return
         past = past_evaluations(folder)
         self.evaluations_timesteps, self.evaluations_results = past["timesteps"], past["results"]
         self.evaluations_length, self.evaluations_successes = past["ep_lengths"], past["successes"]
@@ -122,7 +125,7 @@ def train(run: Run, folder: Path, *, resume: bool, jobs: int, progress: Progress
         if model.tensorboard_log is None:
             # Else it leaves a folder among the system's.
             model.set_logger(Logger(folder=None, output_formats=[]))
-        callbacks = [_Curve(checks, folder, run), _Watch(folder, settings.checkpoint_every, progress)]
+        callbacks = [_Curve(checks, folder, run, resume), _Watch(folder, settings.checkpoint_every, progress)]
         left = settings.steps - model.num_timesteps
         try:
             if left > 0:

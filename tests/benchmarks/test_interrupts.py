@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from benchmarks.interrupts import interrupts_raised
+from benchmarks.interrupts import interrupts_held, interrupts_raised
 
 pytestmark = [
     pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="needs the signals of POSIX"),
@@ -81,3 +81,31 @@ def test_a_forked_process_ends_as_it_would_have():
         child.join(60.0)
 
     assert child.exitcode == -signal.SIGTERM
+
+
+def test_an_interrupt_that_waits_for_what_hangs_is_raised_after_all(monkeypatch):
+    monkeypatch.setattr("benchmarks.interrupts.HELD", 0.2)
+    start = time.monotonic()
+
+    def hangs():
+        signal.raise_signal(signal.SIGINT)
+        time.sleep(60.0)
+
+    with pytest.raises(KeyboardInterrupt), interrupts_raised(), interrupts_held():
+        hangs()
+
+    assert time.monotonic() - start < 30.0
+
+
+def test_an_interrupt_that_was_held_is_raised_once():
+    def twice():
+        signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
+
+    with interrupts_raised():
+        with pytest.raises(KeyboardInterrupt), interrupts_held():
+            twice()
+        with interrupts_held():
+            nothing_more = True
+
+    assert nothing_more

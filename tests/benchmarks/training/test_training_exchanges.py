@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import gymnasium as gym
 import numpy as np
 import pytest
+from mortal_env import Mortal
 
 from benchmarks.interrupts import interrupts_raised
 from benchmarks.training.exchanges import EXCHANGES, EnvironmentDiedError, whole
@@ -105,3 +106,17 @@ def test_real_processes_answer_and_end_after_an_interrupt_in_the_middle(sb3):
 
     assert observations.shape == (2, 4)
     assert [process.exitcode for process in environments.processes] == [0, 0]
+
+
+@pytest.mark.parametrize("which", [0, 1])
+def test_whichever_real_process_dies_the_others_end_at_once(sb3, which):
+    makers = [partial(Mortal, i == which) for i in range(2)]
+    environments = whole(sb3.SubprocVecEnv)(makers, start_method="forkserver")
+    environments.reset()
+    with pytest.raises(EnvironmentDiedError, match="a process of the environments died"):
+        environments.step(np.zeros((2, 1)))
+    environments.close()
+    for process in environments.processes:
+        process.join(timeout=60)
+
+    assert not any(process.is_alive() for process in environments.processes)
