@@ -31,7 +31,7 @@ def write_videos(folder: Path, plan: Evaluation) -> dict[str, str]:
         env, policy = meet(candidate, plan.task, plan.config, plan.estimate, render_mode="rgb_array")
         name = "".join(c if c.isalnum() or c in "-_." else "_" for c in candidate.name) + SUFFIX
         try:
-            with Film(folder / name, round(1 / plan.config.timing.step)) as film:
+            with Film(folder / name, 1 / plan.config.timing.step) as film:
                 run_episode(
                     env, policy, plan.seeds[0], on_step=lambda env=env, film=film: film.add(env.render())
                 )
@@ -57,6 +57,8 @@ class Film:
     def __init__(self, path: str | Path, fps: float) -> None:
         self._path, self._fps = Path(path), fps
         self._writer: Any = None
+        self._size = (0, 0)
+        self._closed = False
         if self._path.suffix != SUFFIX:
             raise OutputError(f"{self._path.name}: a film's name must end in {SUFFIX}")
 
@@ -70,10 +72,16 @@ class Film:
         """Append an RGB frame (H, W, 3) uint8, as `render()` returns it.
 
         Raises:
-            OutputError: If this OpenCV cannot write such a file, or not there.
+            OutputError: If this OpenCV cannot write such a file, or not there; if the frame has another size than the
+                first, or the film is closed.
         """
+        if self._closed:
+            raise OutputError(f"{self._path}: is closed, no frame can be added")
+        size = (frame.shape[1], frame.shape[0])
+        if self._writer is not None and size != self._size:
+            raise OutputError(f"{self._path}: a frame is {size}, must be {self._size} pixels as the first")
         if self._writer is None:
-            size = (frame.shape[1], frame.shape[0])
+            self._size = size
             with quiet():  # it says that it names the codec in another way than it was asked to
                 code = cv2.VideoWriter.fourcc(*CODEC)
                 self._writer = cv2.VideoWriter(str(self._path), cv2.CAP_FFMPEG, code, self._fps, size)
@@ -83,5 +91,6 @@ class Film:
 
     def close(self) -> None:
         """Finish the file."""
+        self._closed = True
         if self._writer is not None:
             self._writer.release()

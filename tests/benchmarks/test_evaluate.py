@@ -159,6 +159,15 @@ def test_a_film_that_cannot_be_written_is_refused(tmp_path, name):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_film_takes_no_frame_that_it_cannot_keep(tmp_path):
+    with Film(tmp_path / "film.webm", fps=2.5) as film:
+        film.add(np.zeros((48, 64, 3), np.uint8))
+        with pytest.raises(OutputError, match=r"\(32, 48\), must be \(64, 48\)"):
+            film.add(np.zeros((48, 32, 3), np.uint8))
+    with pytest.raises(OutputError, match="closed"):
+        film.add(np.zeros((48, 64, 3), np.uint8))
+
+
 @pytest.mark.parametrize("name", ["Straight", "Scanner"])
 def test_a_class_of_one_s_own_is_judged(name, tmp_path, monkeypatch):
     pytest.importorskip("pybullet")
