@@ -30,3 +30,11 @@ def test_inverses_and_determinants_are_those_of_each_matrix():
 def test_the_triangle_is_a_root_of_the_covariance(i):
     matrix = covariances(np.random.default_rng(2), 5)[i]
     np.testing.assert_allclose(cholesky(matrix), np.linalg.cholesky(matrix), rtol=1e-12, atol=1e-18)
+
+
+@pytest.mark.parametrize("matrix", [[[1.0, 2.0], [2.0, 4.0]], [[0.0, 0.0], [0.0, 1.0]]])
+def test_what_has_no_inverse_is_refused_as_numpy_refuses_it(matrix):
+    with pytest.raises(np.linalg.LinAlgError):
+        inverse(np.array([np.eye(2), matrix]))
+    with pytest.raises(np.linalg.LinAlgError):
+        cholesky(np.array(matrix))
