@@ -104,6 +104,9 @@ class TaskEnv(ArenaEnv):
 
     def _start_pose(self, options: dict[str, Any]) -> Pose2:
         """Lay out the episode: the world, start and goal; a random world that has no place for them is drawn again."""
+        for key in options:
+            if key not in ("pose", "goal"):
+                raise ConfigError(f"options[{key!r}]: unknown, must be 'pose' or 'goal'")
         if not self._random:
             return self._begun(options)
         for _ in range(WORLDS):
