@@ -84,6 +84,13 @@ def test_the_best_policy_has_most_successes_then_most_return_and_is_the_latest(s
     assert last_is_best(successes, returns) is best
 
 
+def test_what_an_earlier_start_evaluated_does_not_count_for_one_that_begins_anew(sb3, tmp_path):
+    for _ in range(2):
+        sb3.train(tiny("ppo", 64), tmp_path, resume=False, jobs=1, progress=lambda n: None)
+
+    assert learning_curve(tmp_path)["steps"].tolist() == [64]
+
+
 def test_tensorboard_shows_the_reward_in_its_terms(sb3, tmp_path):
     events = pytest.importorskip("tensorboard.backend.event_processing.event_accumulator")
     tiny("ppo", 64).write(tmp_path)
